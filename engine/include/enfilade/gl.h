@@ -1,0 +1,48 @@
+/* Draws an EnfDrawList with OpenGL 3.3 core; headless contexts (EGL surfaceless, OSMesa); read-back. */
+#ifndef ENFILADE_GL_H
+#define ENFILADE_GL_H
+
+#include <enfilade/draw.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum EnfContextKind { ENF_CONTEXT_ANY, ENF_CONTEXT_EGL, ENF_CONTEXT_OSMESA } EnfContextKind;
+typedef struct EnfContext EnfContext;
+/** A current headless context. ANY tries EGL surfaceless, then OSMesa. */
+EnfResult enf_context_create(EnfContext **context, EnfContextKind kind, EnfError *error);
+void enf_context_destroy(EnfContext *context);
+const char *enf_context_name(const EnfContext *context); /**< "egl" or "osmesa" */
+
+typedef enum EnfRenderMode { ENF_RENDER_COLOR, ENF_RENDER_IDS } EnfRenderMode;
+typedef struct EnfGl EnfGl;
+/** Uploads a map for drawing with the current context (the game passes its own loader: `load(name)` returns a GL function). */
+typedef void *EnfGlLoadFn(const char *name);
+EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfError *error);
+/** The loader of a headless context. */
+EnfGlLoadFn *enf_context_loader(const EnfContext *context);
+void enf_gl_destroy(EnfGl *gl);
+/** Draws into the bound target of `width_px × height_px`: clears, opaque, then blended. IDS writes cluster + 1 as RGBA8 little-
+ *  endian with no blending, no multisampling, no sRGB; alpha mask as in colour; blended surfaces count as solid. */
+void enf_gl_draw(EnfGl *gl, const EnfDrawList *list, EnfRenderMode mode);
+
+/** An offscreen sRGB colour + depth target and its read-back. */
+typedef struct EnfGlTarget EnfGlTarget;
+EnfResult enf_gl_target_create(EnfGl *gl, EnfGlTarget **target, uint32_t width_px, uint32_t height_px, EnfError *error);
+void enf_gl_target_destroy(EnfGlTarget *target);
+void enf_gl_target_bind(EnfGlTarget *target, EnfRenderMode mode);
+/** width × height × 4 bytes RGBA, rows bottom to top. */
+void enf_gl_target_read(EnfGlTarget *target, EnfRenderMode mode, uint8_t *rgba);
+
+/** Debug drawing: line list, eye-relative floats, colours RGBA8; `through`: not hidden by depth. */
+typedef struct EnfDebugVertex { float position_eye[3]; uint32_t rgba; } EnfDebugVertex;
+void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count,
+                       bool through);
+/** The clusters of `list` as wireframe in one colour over the picture (culled clusters of a frozen camera). */
+void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

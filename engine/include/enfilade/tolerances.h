@@ -1,0 +1,29 @@
+/* All tolerances of the engine: unit, derivation, and the test that pins each (DESIGN §2). */
+#ifndef ENFILADE_TOLERANCES_H
+#define ENFILADE_TOLERANCES_H
+
+/** Spacing of the grid that the compiler snaps source vertices to, metres: 2^-12 (0.24 mm). A float32 holds multiples of it
+ *  exactly up to 4,096 m from a cell's origin, so a vertex shared by two cells is the same point in both. Pinned by
+ *  tests/property/test_predicates. */
+#define ENF_GRID_STEP (1.0 / 4096.0)
+
+/** Spacing of cell origins, metres: 2^-8. A multiple of ENF_GRID_STEP. */
+#define ENF_ORIGIN_STEP (1.0 / 256.0)
+
+/** An eye at most this far (metres) from a portal *polygon* passes the parent's window unclipped. Must exceed every length
+ *  at which the projection of a portal loses meaning: ENF_TOL_EYE_PLANE times the widest field of view's corner (16), and
+ *  the grid step by which an opening may be misplaced (PITFALLS 2, 3, 4). Pinned by tests/property/test_portal_eye. */
+#define ENF_TOL_PORTAL_EYE (1.0 / 128.0)
+
+/** Portals are clipped to w >= this, metres in front of the eye plane, before the divide (PITFALLS 1). Pinned by
+ *  tests/property/test_screen_box. */
+#define ENF_TOL_EYE_PLANE (1.0 / 8192.0)
+
+/** Outward padding of projected boxes, pixels: far above the rounding of the double pipeline (< 2^-20 px), far below a
+ *  window's step (PITFALLS 27). Pinned by tests/property/test_screen_box. */
+#define ENF_TOL_PAD_PX (1.0 / 256.0)
+
+/** Windows are fixed point with this many steps a pixel. */
+#define ENF_WINDOW_STEPS 16
+
+#endif
