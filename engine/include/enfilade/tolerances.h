@@ -23,6 +23,11 @@
  *  window's step (PITFALLS 27). Pinned by tests/property/test_screen_box. */
 #define ENF_TOL_PAD_PX (1.0 / 256.0)
 
+/** A portal whose vertices stray farther than this (metres) from their common plane has no facing test: 16 grid steps, far above
+ *  what snapping does to a flat polygon (1 step), far below a bend that could be looked through from behind (PITFALLS 4).
+ *  Pinned by tests/unit/test_world. */
+#define ENF_TOL_PORTAL_FLAT (16.0 * ENF_GRID_STEP)
+
 /** Windows are fixed point with this many steps a pixel. */
 #define ENF_WINDOW_STEPS 16
 

@@ -47,12 +47,19 @@ typedef struct EnfVisit {
 typedef struct EnfVisEntry { uint32_t cluster, space, visit; } EnfVisEntry;
 
 typedef struct EnfVisCounters {
-    uint32_t portals_tested, portals_passed, visits, cells, requeued;
-    uint32_t kd_nodes, boxes, clusters;
+    uint32_t portals_tested;  /**< half-portals looked at, closed and averted ones included */
+    uint32_t portals_passed;  /**< of these, with a window left */
+    uint32_t visits, cells;
+    uint32_t requeued;        /**< cells whose window grew after they had been worked on */
+    uint32_t kd_nodes, boxes; /**< tested against a pyramid */
+    uint32_t clusters;        /**< distinct (space, cluster) */
     bool fell_back;           /**< a limit was hit: the frustum (or worklist) answered instead */
     bool outside;             /**< the eye was in no cell */
     bool open;                /**< a cell with a leaking shell was seen */
 } EnfVisCounters;
+
+/** Spaces (worlds through mirrors and teleports) a view may reach; beyond it they are not entered and fell_back says so. */
+#define ENF_VIS_SPACES_MAX 64
 
 /** Valid until the next enf_vis_run of its EnfVis. */
 typedef struct EnfVisSet {

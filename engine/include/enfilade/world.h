@@ -10,17 +10,15 @@
 extern "C" {
 #endif
 
-/** A half-portal as the traversal uses it: 64 bytes hot data; plane derived from the points (PITFALLS 15). */
+/** A half-portal as the traversal uses it: 64 bytes, one cache line; the plane is derived from the points (PITFALLS 15). */
 typedef struct EnfPortalState {
-    EnfVec3f normal;          /**< unit, out of the source cell; zero for overlap links */
-    float d;                  /**< normal·p + d = 0, relative to the source cell's origin */
-    float slab;               /**< metres: how far vertices and rounding stray from the plane, outward; sides are three-valued */
+    EnfVec3 normal;           /**< unit, out of the source cell; zero for overlap links */
+    double d;                 /**< normal·p + d = 0, relative to the source cell's origin */
+    float slab;               /**< metres: no vertex strays farther from the plane; sides are three-valued */
     uint32_t vertex_first;    /**< in EnfPortals.vertices */
     uint16_t vertex_count;
     uint16_t flags;           /**< ENF_PORTAL_* ; CLOSED is the current state */
     uint32_t source, target, twin, transform;
-    EnfVec3f center;          /**< relative to the source cell's origin */
-    float radius;             /**< of a sphere about center holding the polygon, outward */
 } EnfPortalState;
 
 typedef struct EnfPortals {
