@@ -1,0 +1,147 @@
+"""From plain mesh data to Blender objects: materials, rooms as empties, shells, portals, lights, furniture."""
+
+import bpy
+
+from geometry import snap, snap_point, sub
+from materials import MATERIALS
+from openings import Portal
+from shell import centre_of
+
+LIGHT_WATTS = 12.566370614  # the exporter divides a point light's watts by 4 pi to get candelas
+
+
+class Scene:
+    """The Blender file under construction."""
+
+    def __init__(self, images):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        self.collection = bpy.context.scene.collection
+        self.images = images  # texture name -> bpy image
+        self.materials = {}
+        self.meshes = {}
+        self.rooms = {}
+        self.origins = {}
+
+    # ---- materials -------------------------------------------------------------------------------------------------
+
+    def material(self, name):
+        if name not in self.materials:
+            self.materials[name] = self._new_material(name, MATERIALS[name])
+        return self.materials[name]
+
+    def _new_material(self, name, look):
+        material = bpy.data.materials.new(name)
+        material.use_nodes = True
+        material.use_backface_culling = True
+        material.diffuse_color = (*look.colour, 1.0)
+        nodes, links = material.node_tree.nodes, material.node_tree.links
+        shader = nodes["Principled BSDF"]
+        target = shader.inputs["Base Color"]
+        if look.unlit:
+            nodes.remove(shader)
+            shader = nodes.new("ShaderNodeBackground")
+            links.new(shader.outputs[0], nodes["Material Output"].inputs["Surface"])
+            target = shader.inputs["Color"]
+        else:
+            shader.inputs["Roughness"].default_value = look.rough
+            shader.inputs["Specular"].default_value = 0.5
+            if look.emission:
+                shader.inputs["Emission"].default_value = (*look.colour, 1.0)
+                shader.inputs["Emission Strength"].default_value = look.emission
+        target.default_value = (*look.colour, 1.0)
+        image = self.images.get(look.texture)
+        if image:
+            picture = nodes.new("ShaderNodeTexImage")
+            picture.image = image
+            links.new(picture.outputs["Color"], target)
+        return material
+
+    # ---- meshes ----------------------------------------------------------------------------------------------------
+
+    def mesh(self, name, data):
+        """A Blender mesh from mesh data; texture coordinates are divided by the metres a picture covers."""
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata(data.points, [], data.faces)
+        names = sorted(set(data.materials))
+        for material in names:
+            mesh.materials.append(self.material(material))
+        slots = {material: i for i, material in enumerate(names)}
+        mesh.polygons.foreach_set("material_index", [slots[m] for m in data.materials])
+        mesh.polygons.foreach_set("use_smooth", data.smooth)
+        layer = mesh.uv_layers.new(name="UVMap")
+        flat = []
+        for uvs, material in zip(data.uvs, data.materials):
+            metres = MATERIALS[material].metres
+            flat += [value / metres for uv in uvs for value in uv]
+        layer.data.foreach_set("uv", flat)
+        mesh.update()
+        return mesh
+
+    def shared_mesh(self, name, build):
+        """The one mesh datablock of a piece of furniture; `build` makes its data the first time."""
+        if name not in self.meshes:
+            self.meshes[name] = self.mesh(name, build())
+        return self.meshes[name]
+
+    # ---- objects ---------------------------------------------------------------------------------------------------
+
+    def room(self, room):
+        x, y = centre_of(room.footprint)
+        origin = (round(x * 8) / 8, round(y * 8) / 8, room.floor)
+        empty = self._object(f"{room.name}-room", None, None, origin)
+        empty.empty_display_size = 0.5
+        empty["label"] = room.label
+        empty["theme"] = room.theme
+        self.rooms[room.name], self.origins[room.name] = empty, origin
+
+    def child(self, room_name, name, data, at=(0.0, 0.0, 0.0), turn=0.0, extras=None):
+        """An object inside a room, placed in the world."""
+        item = self._object(name, data, self.rooms[room_name], sub(at, self.origins[room_name]))
+        item.rotation_euler = (0.0, 0.0, turn)
+        for key, value in (extras or {}).items():
+            item[key] = value
+        return item
+
+    def _object(self, name, data, parent, location):
+        item = bpy.data.objects.new(name, data)
+        item.location = location
+        item.parent = parent
+        self.collection.objects.link(item)
+        return item
+
+    def local_mesh(self, room_name, name, data):
+        """A mesh of this room alone, given in the world, stored about the room's origin."""
+        origin = self.origins[room_name]
+        data.points = [sub(p, origin) for p in data.points]
+        return self.child(room_name, name, self.mesh(name, data.weld()), origin)
+
+    def portal(self, portal: Portal, number):
+        origin = self.origins[portal.source]
+        mesh = bpy.data.meshes.new(f"portal.{number}")
+        points = [sub(p, origin) for p in portal.points]
+        mesh.from_pydata(points, [], [list(range(len(points)))])
+        item = self.child(portal.source, f"{portal.target}*{number}-portal", mesh, origin)
+        item.hide_render = True
+
+    def light(self, room_name, number, at, candela, colour, reach):
+        lamp = bpy.data.lights.new(f"{room_name}_light_{number}", "POINT")
+        lamp.energy = candela * LIGHT_WATTS
+        lamp.color = colour
+        lamp.use_custom_distance = True
+        lamp.cutoff_distance = reach
+        lamp.shadow_soft_size = 0.2
+        self.child(room_name, lamp.name, lamp, snap_point(at))
+
+    def spawn(self, room_name, at, turn, eye):
+        start = self.child(room_name, "player_start", None, at, turn, {"classname": "info_player_start"})
+        camera = bpy.data.objects.new("player_camera", bpy.data.cameras.new("player_camera"))
+        camera.location = (0.0, 0.0, snap(eye))
+        camera.rotation_euler = (1.5707963267948966, 0.0, 0.0)
+        camera.parent = start
+        self.collection.objects.link(camera)
+
+    def export(self, path):
+        bpy.ops.export_scene.gltf(
+            filepath=path, export_format="GLB", export_extras=True, export_lights=True, export_cameras=True,
+            export_apply=False, export_yup=True, export_animations=False, export_skins=False, export_morph=False,
+            export_image_format="JPEG", convert_lighting_mode="COMPAT")
