@@ -87,8 +87,8 @@ static bool faces_away(const Walk *walk, const EnfPortalState *state, EnfVec3 ey
 }
 
 /* The window of one half-portal seen from `eye` (relative to its source cell) through `from`. False: nothing is seen. */
-static bool look_through(const Walk *walk, const EnfPortalState *state, const EnfCamera *camera, EnfVec3 eye,
-                         const Pane *from, Pane *to)
+static bool look_through(const Walk *walk, const EnfPortalState *state, const EnfCamera *camera, EnfVec3 eye, const Pane *from,
+                         Pane *to)
 {
     if ((state->flags & ENF_PORTAL_OVERLAP) != 0) {
         *to = *from;

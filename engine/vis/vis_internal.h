@@ -27,15 +27,15 @@ struct EnfVis {
     const EnfMap *map;
     const EnfAllocator *allocator;
 
-    EnfVisit *visits;             /**< grows; a warm frame finds it large enough */
-    EnfVisitLink *links;          /**< parallel to visits: the queue of those to work on, first in, first out */
+    EnfVisit *visits;    /**< grows; a warm frame finds it large enough */
+    EnfVisitLink *links; /**< parallel to visits: the queue of those to work on, first in, first out */
     uint32_t visit_count, visit_capacity, queue_head, queue_tail;
 
-    EnfWindowPolygon *polygons;   /**< one a visit with polygon windows, none before first use */
+    EnfWindowPolygon *polygons; /**< one a visit with polygon windows, none before first use */
     uint32_t polygon_count, polygon_capacity;
 
-    uint32_t *cell_frame;         /**< a cell: the frame that last visited it in space 0 (stamps: no clearing a frame) */
-    uint32_t *cell_visit;         /**< a cell: its visit in that frame */
+    uint32_t *cell_frame; /**< a cell: the frame that last visited it in space 0 (stamps: no clearing a frame) */
+    uint32_t *cell_visit; /**< a cell: its visit in that frame */
     uint32_t frame;
 
     EnfCamera cameras[ENF_VIS_SPACES_MAX];
@@ -43,11 +43,11 @@ struct EnfVis {
     uint32_t space_count;
 
     EnfBits cell_bits, cluster_bits;
-    uint32_t *cluster_visit;      /**< a cluster: the visit that saw it first */
-    uint32_t *items;              /**< results of one kd query */
+    uint32_t *cluster_visit; /**< a cluster: the visit that saw it first */
+    uint32_t *items;         /**< results of one kd query */
     uint32_t items_capacity;
     uint32_t *cells;
-    EnfVisEntry *entries;         /**< grows (several spaces or primitives) */
+    EnfVisEntry *entries; /**< grows (several spaces or primitives) */
     uint32_t entry_count, entry_capacity;
 
     EnfVisSet set;

@@ -176,8 +176,8 @@ static bool allocate(EnfVis *vis)
     vis->cells = enf_alloc(allocator, cells, sizeof *vis->cells);
     vis->cluster_visit = enf_alloc(allocator, clusters, sizeof *vis->cluster_visit);
     vis->items = enf_alloc(allocator, vis->items_capacity, sizeof *vis->items);
-    bool ok = vis->cell_frame != NULL && vis->cell_visit != NULL && vis->cells != NULL && vis->cluster_visit != NULL
-              && vis->items != NULL;
+    bool ok = vis->cell_frame != NULL && vis->cell_visit != NULL && vis->cells != NULL && vis->cluster_visit != NULL &&
+              vis->items != NULL;
     ok = ok && bits_create(&vis->cell_bits, cells, allocator) && bits_create(&vis->cluster_bits, clusters, allocator);
     return ok && enf_vis_reserve_visits(vis, cells + FIRST_EXTRA_VISITS) && enf_vis_reserve_entries(vis, clusters);
 }

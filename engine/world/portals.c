@@ -63,8 +63,7 @@ EnfResult enf_portals_create(EnfPortals *portals, const EnfMap *map, const EnfAl
     portals->vertex_count = map->portal_vertices_count;
     portals->states = enf_alloc(allocator, portals->count, sizeof *portals->states);
     portals->vertices = enf_alloc(allocator, portals->vertex_count, sizeof *portals->vertices);
-    bool missing = (portals->count > 0 && portals->states == NULL)
-                   || (portals->vertex_count > 0 && portals->vertices == NULL);
+    bool missing = (portals->count > 0 && portals->states == NULL) || (portals->vertex_count > 0 && portals->vertices == NULL);
     if (missing) {
         enf_portals_destroy(portals);
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "portal state of %u half-portals", map->portals_count);

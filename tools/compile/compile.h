@@ -10,8 +10,8 @@ extern "C" {
 #endif
 
 typedef struct EnfCompileReport {
-    uint32_t cells, portals, half_portals;   /**< portals: openings as authored (twins count once) */
-    uint64_t triangles, triangles_stored;    /**< of the level (instanced); after dropping and splitting */
+    uint32_t cells, portals, half_portals; /**< portals: openings as authored (twins count once) */
+    uint64_t triangles, triangles_stored;  /**< of the level (instanced); after dropping and splitting */
     uint32_t clusters, kd_nodes, lights;
     uint64_t bytes;
     double seconds_import, seconds_cells, seconds_kd, seconds_write;
@@ -21,10 +21,10 @@ typedef struct EnfCompileReport {
 typedef void EnfProgressFn(void *user, const char *stage, double fraction);
 
 typedef struct EnfCompileDef {
-    const char *level;       /**< .glb or .gltf */
-    const char *output;      /**< .enfmap, or NULL: compile and check only */
-    const char *plan;        /**< .svg, or NULL */
-    const char *overlay;     /**< .glb, or NULL */
+    const char *level;   /**< .glb or .gltf */
+    const char *output;  /**< .enfmap, or NULL: compile and check only */
+    const char *plan;    /**< .svg, or NULL */
+    const char *overlay; /**< .glb, or NULL */
     EnfCompileSettings settings;
     EnfProgressFn *progress; /**< or NULL */
     void *user;

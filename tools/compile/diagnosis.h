@@ -9,30 +9,30 @@ extern "C" {
 #endif
 
 /** X(NAME, "code", is_error): the catalogue; a test triggers each. The text code is what --json prints. */
-#define ENF_DIAGNOSES(X)                                                                                               \
-    X(NO_ROOMS, "no-rooms", false)                     /* compiled as one cell */                                      \
-    X(PORTAL_NO_TARGET, "portal-missing-target", false) /* names a room that is not there, or none found by geometry */ \
-    X(PORTAL_SELF, "portal-to-itself", false)                                                                          \
-    X(PORTAL_OFF_PLANE, "portal-off-plane", false)                                                                     \
-    X(PORTAL_CONCAVE, "portal-concave", false)                                                                         \
-    X(PORTAL_DEGENERATE, "portal-degenerate", false)                                                                   \
-    X(PORTAL_FLIPPED, "portal-flipped", false)                                                                         \
-    X(PORTAL_DOUBLED, "portal-doubled", false)                                                                         \
-    X(PORTAL_FAR, "portal-far-from-room", false)                                                                       \
-    X(PORTAL_OUTSIDE_ROOM, "portal-without-room", false)                                                               \
-    X(ROOM_DUPLICATE, "room-name-duplicate", false)                                                                    \
-    X(ROOM_EMPTY, "room-empty", false)                                                                                 \
-    X(ROOM_OVERLAP, "rooms-overlap", false)                                                                            \
-    X(ROOM_LEAK, "room-leak", false)                                                                                   \
-    X(SUFFIX_NEAR_MISS, "suffix-near-miss", false)                                                                     \
-    X(NODE_OUTSIDE, "node-outside-rooms", false)                                                                       \
-    X(GEOMETRY_CROSSES, "geometry-crosses-rooms", false)                                                               \
-    X(NO_EXTRAS, "no-extras", false)                                                                                   \
-    X(NO_LIGHTS, "no-lights", false)                                                                                   \
-    X(DEGENERATE_TRIANGLES, "degenerate-triangles", false)                                                             \
-    X(UNSUPPORTED, "unsupported-feature", false)       /* optional extension, primitive mode, morph, skin: what is lost */ \
-    X(IMAGE, "image-unreadable", false)                                                                                \
-    X(NO_GEOMETRY, "no-geometry", true)                                                                                \
+#define ENF_DIAGNOSES(X)                                                                                                       \
+    X(NO_ROOMS, "no-rooms", false)                      /* compiled as one cell */                                             \
+    X(PORTAL_NO_TARGET, "portal-missing-target", false) /* names a room that is not there, or none found by geometry */        \
+    X(PORTAL_SELF, "portal-to-itself", false)                                                                                  \
+    X(PORTAL_OFF_PLANE, "portal-off-plane", false)                                                                             \
+    X(PORTAL_CONCAVE, "portal-concave", false)                                                                                 \
+    X(PORTAL_DEGENERATE, "portal-degenerate", false)                                                                           \
+    X(PORTAL_FLIPPED, "portal-flipped", false)                                                                                 \
+    X(PORTAL_DOUBLED, "portal-doubled", false)                                                                                 \
+    X(PORTAL_FAR, "portal-far-from-room", false)                                                                               \
+    X(PORTAL_OUTSIDE_ROOM, "portal-without-room", false)                                                                       \
+    X(ROOM_DUPLICATE, "room-name-duplicate", false)                                                                            \
+    X(ROOM_EMPTY, "room-empty", false)                                                                                         \
+    X(ROOM_OVERLAP, "rooms-overlap", false)                                                                                    \
+    X(ROOM_LEAK, "room-leak", false)                                                                                           \
+    X(SUFFIX_NEAR_MISS, "suffix-near-miss", false)                                                                             \
+    X(NODE_OUTSIDE, "node-outside-rooms", false)                                                                               \
+    X(GEOMETRY_CROSSES, "geometry-crosses-rooms", false)                                                                       \
+    X(NO_EXTRAS, "no-extras", false)                                                                                           \
+    X(NO_LIGHTS, "no-lights", false)                                                                                           \
+    X(DEGENERATE_TRIANGLES, "degenerate-triangles", false)                                                                     \
+    X(UNSUPPORTED, "unsupported-feature", false) /* optional extension, primitive mode, morph, skin: what is lost */           \
+    X(IMAGE, "image-unreadable", false)                                                                                        \
+    X(NO_GEOMETRY, "no-geometry", true)                                                                                        \
     X(TOO_LARGE, "too-large", true)
 
 typedef enum EnfDiagnosisCode {
@@ -44,9 +44,9 @@ typedef enum EnfDiagnosisCode {
 
 typedef struct EnfFinding {
     EnfDiagnosisCode code;
-    char *node;       /**< glTF node name, or "" */
+    char *node; /**< glTF node name, or "" */
     char *message;
-    EnfVec3 *points;  /**< world polyline or polygon to show in the overlay; may be NULL */
+    EnfVec3 *points; /**< world polyline or polygon to show in the overlay; may be NULL */
     uint32_t point_count;
 } EnfFinding;
 

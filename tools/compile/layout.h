@@ -12,32 +12,34 @@ extern "C" {
 
 /** Settings of a level project (JSON); every one has a default. */
 typedef struct EnfCompileSettings {
-    double leak_gap;          /**< metres: openings narrower than this are not looked for (default 0.25) */
-    double portal_snap;       /**< metres: half-portals given on both sides are one if their vertices agree within it (0.05) */
-    double crease_deg;        /**< reserved for computed normals */
-    uint32_t max_image;       /**< larger images are halved until they fit (2048) */
-    bool weld_tjunctions;     /**< default true */
-    bool detect_leaks;        /**< default true */
+    double leak_gap;      /**< metres: openings narrower than this are not looked for (default 0.25) */
+    double portal_snap;   /**< metres: half-portals given on both sides are one if their vertices agree within it (0.05) */
+    double crease_deg;    /**< reserved for computed normals */
+    uint32_t max_image;   /**< larger images are halved until they fit (2048) */
+    bool weld_tjunctions; /**< default true */
+    bool detect_leaks;    /**< default true */
 } EnfCompileSettings;
 EnfCompileSettings enf_compile_settings_default(void);
 
 /** What a node is to the compiler. */
 typedef enum EnfRole {
-    ENF_ROLE_GEOMETRY,  /**< its mesh is drawn */
-    ENF_ROLE_ROOM, ENF_ROLE_PORTAL, ENF_ROLE_BOUND,
+    ENF_ROLE_GEOMETRY, /**< its mesh is drawn */
+    ENF_ROLE_ROOM,
+    ENF_ROLE_PORTAL,
+    ENF_ROLE_BOUND,
     ENF_ROLE_COLLISION, /**< -colonly: not drawn */
     ENF_ROLE_IGNORED,   /**< -noimp and its children */
     ENF_ROLE_MARKER     /**< no mesh */
 } EnfRole;
 
 typedef struct EnfLayoutCell {
-    const char *name;          /**< the room node's name as in the file */
-    uint32_t node;             /**< in source nodes; ENF_NONE for the one cell of an un-annotated level and for OUTSIDE */
+    const char *name; /**< the room node's name as in the file */
+    uint32_t node;    /**< in source nodes; ENF_NONE for the one cell of an un-annotated level and for OUTSIDE */
     int32_t priority;
-    uint32_t parent;           /**< the cell it is nested in, or ENF_NONE */
-    uint32_t flags;            /**< ENF_CELL_* */
-    EnfGrid3 origin;           /**< multiple of 16 grid steps (2^-8 m) */
-    EnfGrid3 min, max;         /**< of shell and portals, in the world grid */
+    uint32_t parent;                   /**< the cell it is nested in, or ENF_NONE */
+    uint32_t flags;                    /**< ENF_CELL_* */
+    EnfGrid3 origin;                   /**< multiple of 16 grid steps (2^-8 m) */
+    EnfGrid3 min, max;                 /**< of shell and portals, in the world grid */
     uint32_t bound_first, bound_count; /**< in bound_planes: outward normals, world */
 } EnfLayoutCell;
 
@@ -54,12 +56,16 @@ typedef struct EnfLayoutPortal {
 
 /** A cluster-to-be's extra cell is found per node or per triangle group in regions.c. */
 typedef struct EnfLayout {
-    EnfLayoutCell *cells; uint32_t cell_count;       /**< OUTSIDE last, only if needed */
-    EnfLayoutPortal *portals; uint32_t portal_count;
-    EnfGrid3 *points; uint32_t point_count;
-    EnfPlane *bound_planes; uint32_t bound_plane_count;
-    EnfRole *roles;            /**< a source node */
-    uint32_t *node_cells;      /**< a source node's cell, or ENF_NONE: loose */
+    EnfLayoutCell *cells;
+    uint32_t cell_count; /**< OUTSIDE last, only if needed */
+    EnfLayoutPortal *portals;
+    uint32_t portal_count;
+    EnfGrid3 *points;
+    uint32_t point_count;
+    EnfPlane *bound_planes;
+    uint32_t bound_plane_count;
+    EnfRole *roles;       /**< a source node */
+    uint32_t *node_cells; /**< a source node's cell, or ENF_NONE: loose */
 } EnfLayout;
 
 EnfResult enf_layout_build(EnfLayout *layout, const EnfSource *source, const EnfCompileSettings *settings,

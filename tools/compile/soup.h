@@ -18,23 +18,25 @@ typedef struct EnfSoupVertex {
 } EnfSoupVertex;
 
 typedef struct EnfSoupTriangle {
-    uint32_t v[3];     /**< in vertices; vertices are shared within one node's primitive only */
+    uint32_t v[3]; /**< in vertices; vertices are shared within one node's primitive only */
     uint32_t material;
-    uint32_t node;     /**< source node */
-    uint32_t cell;     /**< home, ENF_NONE while loose */
+    uint32_t node; /**< source node */
+    uint32_t cell; /**< home, ENF_NONE while loose */
 } EnfSoupTriangle;
 
 typedef struct EnfSoup {
-    EnfSoupVertex *vertices; uint32_t vertex_count;
-    EnfSoupTriangle *triangles; uint32_t triangle_count;
+    EnfSoupVertex *vertices;
+    uint32_t vertex_count;
+    EnfSoupTriangle *triangles;
+    uint32_t triangle_count;
     uint32_t source_triangle_count; /**< before dropping and splitting */
     uint32_t degenerate_count, split_count;
 } EnfSoup;
 
 /** Bakes nodes with ENF_ROLE_GEOMETRY. Mirrored (negative determinant) nodes have their winding restored. nodraw and caulk
  *  materials are left out of drawing but kept where they close a shell (flag by material). */
-EnfResult enf_soup_build(EnfSoup *soup, const EnfSource *source, const EnfLayout *layout,
-                         const EnfCompileSettings *settings, EnfDiagnosis *diagnosis, EnfError *error);
+EnfResult enf_soup_build(EnfSoup *soup, const EnfSource *source, const EnfLayout *layout, const EnfCompileSettings *settings,
+                         EnfDiagnosis *diagnosis, EnfError *error);
 void enf_soup_free(EnfSoup *soup);
 
 #ifdef __cplusplus

@@ -24,22 +24,22 @@ extern "C" {
 /* ---- results ---------------------------------------------------------------------------------------------------- */
 
 /** The catalogue of errors: X(name, text). One table drives the enum, enf_result_text and the tests. */
-#define ENF_RESULTS(X)                                                                                                 \
-    X(OK, "no error")                                                                                                  \
-    X(ERROR_MEMORY, "out of memory")                                                                                   \
-    X(ERROR_IO, "file cannot be read or written")                                                                      \
-    X(ERROR_SIZE, "a size or count is too large")                                                                      \
-    X(ERROR_TRUNCATED, "data ends too early")                                                                          \
-    X(ERROR_MAGIC, "not a file of this kind")                                                                          \
-    X(ERROR_VERSION, "a version this engine does not read")                                                            \
-    X(ERROR_CHECKSUM, "checksum differs: the file is damaged")                                                         \
-    X(ERROR_FORMAT, "malformed data")                                                                                  \
-    X(ERROR_INDEX, "an index points outside its table")                                                                \
-    X(ERROR_RANGE, "a value is outside its range")                                                                     \
-    X(ERROR_UNSUPPORTED, "a required feature is not supported")                                                        \
-    X(ERROR_ARGUMENT, "bad argument")                                                                                  \
-    X(ERROR_LEVEL, "no map can be made from this level")                                                               \
-    X(ERROR_CONTEXT, "no OpenGL context")                                                                              \
+#define ENF_RESULTS(X)                                                                                                         \
+    X(OK, "no error")                                                                                                          \
+    X(ERROR_MEMORY, "out of memory")                                                                                           \
+    X(ERROR_IO, "file cannot be read or written")                                                                              \
+    X(ERROR_SIZE, "a size or count is too large")                                                                              \
+    X(ERROR_TRUNCATED, "data ends too early")                                                                                  \
+    X(ERROR_MAGIC, "not a file of this kind")                                                                                  \
+    X(ERROR_VERSION, "a version this engine does not read")                                                                    \
+    X(ERROR_CHECKSUM, "checksum differs: the file is damaged")                                                                 \
+    X(ERROR_FORMAT, "malformed data")                                                                                          \
+    X(ERROR_INDEX, "an index points outside its table")                                                                        \
+    X(ERROR_RANGE, "a value is outside its range")                                                                             \
+    X(ERROR_UNSUPPORTED, "a required feature is not supported")                                                                \
+    X(ERROR_ARGUMENT, "bad argument")                                                                                          \
+    X(ERROR_LEVEL, "no map can be made from this level")                                                                       \
+    X(ERROR_CONTEXT, "no OpenGL context")                                                                                      \
     X(ERROR_SHADER, "a shader does not compile or link")
 
 typedef enum EnfResult {
@@ -64,7 +64,8 @@ const char *enf_result_text(EnfResult result);
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
-EnfResult enf_error_set(EnfError *error, EnfResult code, uint64_t offset, const char *format, ...);
+EnfResult
+enf_error_set(EnfError *error, EnfResult code, uint64_t offset, const char *format, ...);
 
 /** Records the file name in `error` (which may be NULL) if it has none. Returns `code`. */
 EnfResult enf_error_file(EnfError *error, EnfResult code, const char *file);
@@ -157,8 +158,7 @@ typedef struct EnfFile {
     const EnfAllocator *allocator;
 } EnfFile;
 
-EnfResult enf_file_read(EnfFile *file, const char *path, size_t max_size, const EnfAllocator *allocator,
-                        EnfError *error);
+EnfResult enf_file_read(EnfFile *file, const char *path, size_t max_size, const EnfAllocator *allocator, EnfError *error);
 void enf_file_free(EnfFile *file);
 
 /** A span of bytes to write. */

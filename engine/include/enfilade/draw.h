@@ -12,11 +12,18 @@ extern "C" {
 #endif
 
 /** A run of indices of one material: clusters adjacent in the index buffer are merged. */
-typedef struct EnfDrawRange { uint32_t index_first, index_count, vertex_first, cluster; } EnfDrawRange;
+typedef struct EnfDrawRange {
+    uint32_t index_first, index_count, vertex_first, cluster;
+} EnfDrawRange;
 /** One multi-draw. */
-typedef struct EnfDrawBatch { uint32_t material, range_first, range_count; } EnfDrawBatch;
+typedef struct EnfDrawBatch {
+    uint32_t material, range_first, range_count;
+} EnfDrawBatch;
 /** Where a visible cell lies: (origin − eye) split so that adding it to a stored vertex is exact in float (see draw/README). */
-typedef struct EnfDrawCell { uint32_t cell; float offset[3]; } EnfDrawCell;
+typedef struct EnfDrawCell {
+    uint32_t cell;
+    float offset[3];
+} EnfDrawCell;
 
 typedef struct EnfDrawList {
     const EnfDrawBatch *batches;
@@ -25,8 +32,8 @@ typedef struct EnfDrawList {
     uint32_t range_count;
     const EnfDrawCell *cells;
     uint32_t cell_count;
-    float eye_fraction[3];  /**< subtracted after the exact sum of vertex and offset */
-    float clip_from_eye[16];/**< column-major: projection × rotation, no translation */
+    float eye_fraction[3];   /**< subtracted after the exact sum of vertex and offset */
+    float clip_from_eye[16]; /**< column-major: projection × rotation, no translation */
     uint32_t cluster_count, triangle_count;
 } EnfDrawList;
 

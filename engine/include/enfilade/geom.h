@@ -12,7 +12,9 @@ extern "C" {
 #endif
 
 /** A box window: [x0,x1] × [y0,y1] in 1/16 px; empty when x0 >= x1 or y0 >= y1. */
-typedef struct EnfWindow { int32_t x0, y0, x1, y1; } EnfWindow;
+typedef struct EnfWindow {
+    int32_t x0, y0, x1, y1;
+} EnfWindow;
 
 #define ENF_POLYGON_MAX 32        /**< vertices of a portal (DESIGN §3) */
 #define ENF_WINDOW_POLYGON_MAX 32 /**< vertices of a polygon window */
@@ -34,8 +36,8 @@ typedef struct EnfCamera {
 
 /** Yaw counter-clockwise about +Y with 0 looking down −Z, pitch up positive, roll about the line of sight (clockwise as
  *  seen by the viewer's head tilting right), all in degrees; `fov_y_deg` in (0, 170]. */
-EnfCamera enf_camera(EnfVec3 eye_ws, double yaw_deg, double pitch_deg, double roll_deg, double fov_y_deg,
-                     uint32_t width_px, uint32_t height_px);
+EnfCamera enf_camera(EnfVec3 eye_ws, double yaw_deg, double pitch_deg, double roll_deg, double fov_y_deg, uint32_t width_px,
+                     uint32_t height_px);
 
 EnfWindow enf_window_full(const EnfCamera *camera); /**< [0, 16 w] × [0, 16 h] */
 bool enf_window_is_empty(EnfWindow w);
@@ -45,9 +47,9 @@ bool enf_window_contains(EnfWindow outer, EnfWindow inner);
 
 /** What became of a portal seen through a window. */
 typedef enum EnfProject {
-    ENF_PROJECT_EMPTY,   /**< certainly not visible through the parent's window */
-    ENF_PROJECT_WINDOW,  /**< *out is its window */
-    ENF_PROJECT_PARENT   /**< too near, degenerate or non-finite: the parent's window was passed on */
+    ENF_PROJECT_EMPTY,  /**< certainly not visible through the parent's window */
+    ENF_PROJECT_WINDOW, /**< *out is its window */
+    ENF_PROJECT_PARENT  /**< too near, degenerate or non-finite: the parent's window was passed on */
 } EnfProject;
 
 /** The window of a polygon seen through `parent`.
@@ -86,8 +88,8 @@ typedef struct EnfPyramid {
 /** The pyramid of `window` (and of `polygon` unless NULL) for points stored relative to `origin_ws` inside `bounds` (local):
  *  the box that limits the coordinates which will be tested, from which the float error is derived.
  *  @guarantee tests/property/test_pyramid: no box with a point in the exact pyramid is rejected. */
-void enf_pyramid(const EnfCamera *camera, EnfWindow window, const EnfWindowPolygon *polygon, EnfVec3 origin_ws,
-                 EnfBox3f bounds, EnfPyramid *out);
+void enf_pyramid(const EnfCamera *camera, EnfWindow window, const EnfWindowPolygon *polygon, EnfVec3 origin_ws, EnfBox3f bounds,
+                 EnfPyramid *out);
 /** The scalar test every query agrees with: false only if the box is certainly outside one plane. */
 bool enf_pyramid_box(const EnfPyramid *pyramid, EnfBox3f box);
 

@@ -36,9 +36,11 @@ void enf_gl_target_bind(EnfGlTarget *target, EnfRenderMode mode);
 void enf_gl_target_read(EnfGlTarget *target, EnfRenderMode mode, uint8_t *rgba);
 
 /** Debug drawing: line list, eye-relative floats, colours RGBA8; `through`: not hidden by depth. */
-typedef struct EnfDebugVertex { float position_eye[3]; uint32_t rgba; } EnfDebugVertex;
-void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count,
-                       bool through);
+typedef struct EnfDebugVertex {
+    float position_eye[3];
+    uint32_t rgba;
+} EnfDebugVertex;
+void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count, bool through);
 /** The clusters of `list` as wireframe in one colour over the picture (culled clusters of a frozen camera). */
 void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba);
 

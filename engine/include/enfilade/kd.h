@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define ENF_KD_BLOCK 8     /**< boxes in a leaf block */
+#define ENF_KD_BLOCK 8      /**< boxes in a leaf block */
 #define ENF_KD_MAX_DEPTH 60 /**< no path from the root is longer: the builder keeps it, map_check verifies it */
 
 /** 32 bytes. Inner node: block_count 0, the left child follows at index + 1, the right child is node `link`. Leaf: blocks
@@ -37,7 +37,9 @@ typedef struct EnfKdTree {
     uint32_t node_count, block_count;
 } EnfKdTree;
 
-typedef struct EnfKdCounters { uint32_t nodes, boxes, found; } EnfKdCounters;
+typedef struct EnfKdCounters {
+    uint32_t nodes, boxes, found;
+} EnfKdCounters;
 
 /** A built tree in memory of its own. */
 typedef struct EnfKdBuilt {

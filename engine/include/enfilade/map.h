@@ -21,11 +21,11 @@ extern "C" {
 enum { ENF_CELL_OUTSIDE = 1, ENF_CELL_OPEN = 2 };
 
 typedef struct EnfCell {
-    double origin[3];                /**< world, on the 2^-8 m grid */
-    float min[3], max[3];            /**< bounds of contents, shell and portals, relative to origin, outward */
-    uint32_t name;                   /**< string: the glTF node's name */
+    double origin[3];     /**< world, on the 2^-8 m grid */
+    float min[3], max[3]; /**< bounds of contents, shell and portals, relative to origin, outward */
+    uint32_t name;        /**< string: the glTF node's name */
     uint32_t flags;
-    int32_t priority;                /**< the higher wins where cells overlap */
+    int32_t priority;                      /**< the higher wins where cells overlap */
     uint32_t portal_first, portal_count;   /**< half-portals leaving this cell, contiguous */
     uint32_t node_first, node_count;       /**< kd nodes */
     uint32_t block_first, block_count;     /**< kd leaf blocks */
@@ -40,35 +40,37 @@ typedef struct EnfCell {
 enum { ENF_PORTAL_OVERLAP = 1, ENF_PORTAL_NONPLANAR = 2, ENF_PORTAL_CLOSED = 4, ENF_PORTAL_MIRROR = 8 };
 
 typedef struct EnfPortal {
-    uint32_t source, target;              /**< cells */
-    uint32_t twin;                        /**< the half-portal that leads back, or ENF_NONE (one way) */
-    uint32_t vertex_first, vertex_count;  /**< in portal_vertices, relative to the SOURCE cell's origin; front (right-hand
+    uint32_t source, target;             /**< cells */
+    uint32_t twin;                       /**< the half-portal that leads back, or ENF_NONE (one way) */
+    uint32_t vertex_first, vertex_count; /**< in portal_vertices, relative to the SOURCE cell's origin; front (right-hand
                                                normal) points out of the source, into the target */
-    uint32_t transform;                   /**< in transforms: source space → target space, or ENF_NONE for identity */
+    uint32_t transform;                  /**< in transforms: source space → target space, or ENF_NONE for identity */
     uint32_t flags;
-    uint32_t name;                        /**< string: the glTF node's name */
-} EnfPortal; /* 32 bytes */
+    uint32_t name; /**< string: the glTF node's name */
+} EnfPortal;       /* 32 bytes */
 
 /** p_target = m p_source + t, world coordinates, m column-major, rigid or a reflection. */
-typedef struct EnfTransform { double m[9], t[3]; } EnfTransform; /* 96 bytes */
+typedef struct EnfTransform {
+    double m[9], t[3];
+} EnfTransform; /* 96 bytes */
 
 typedef struct EnfCluster {
-    float min[3], max[3];      /**< relative to the home cell's origin, tight */
-    uint32_t cell;             /**< home: owner of the origin and lights */
+    float min[3], max[3]; /**< relative to the home cell's origin, tight */
+    uint32_t cell;        /**< home: owner of the origin and lights */
     uint32_t material;
     uint32_t index_first, index_count;   /**< in indices; 3 × triangles, ≤ 3 × 128 */
     uint32_t vertex_first, vertex_count; /**< in vertices: all its indices lie in this range */
-    uint32_t node;             /**< string: the glTF node it came from (for messages) */
+    uint32_t node;                       /**< string: the glTF node it came from (for messages) */
     uint32_t reserved;
 } EnfCluster; /* 56 bytes */
 
 typedef struct EnfVertex {
-    float position[3];  /**< relative to the home cell's origin */
-    uint32_t normal;    /**< three signed 10-bit fields x, y, z (bits 0, 10, 20), as GL_INT_2_10_10_10_REV */
+    float position[3]; /**< relative to the home cell's origin */
+    uint32_t normal;   /**< three signed 10-bit fields x, y, z (bits 0, 10, 20), as GL_INT_2_10_10_10_REV */
     float uv[2];
-    uint32_t color;     /**< linear RGBA8, R in the low byte; white where absent */
-    uint32_t cell;      /**< home cell (the shader fetches its eye-relative offset) */
-} EnfVertex; /* 32 bytes */
+    uint32_t color; /**< linear RGBA8, R in the low byte; white where absent */
+    uint32_t cell;  /**< home cell (the shader fetches its eye-relative offset) */
+} EnfVertex;        /* 32 bytes */
 
 typedef enum EnfAlphaMode { ENF_ALPHA_OPAQUE, ENF_ALPHA_MASK, ENF_ALPHA_BLEND } EnfAlphaMode;
 enum { ENF_MATERIAL_DOUBLE_SIDED = 1, ENF_MATERIAL_UNLIT = 2, ENF_MATERIAL_MIRROR = 4, ENF_MATERIAL_NODRAW = 8 };
@@ -79,11 +81,11 @@ typedef struct EnfMaterial {
     uint32_t emissive_texture; /**< or ENF_NONE */
     uint32_t alpha_mode;       /**< EnfAlphaMode */
     uint32_t flags;
-    float base_color[4];       /**< linear */
-    float emissive[3];         /**< linear, strength applied */
+    float base_color[4]; /**< linear */
+    float emissive[3];   /**< linear, strength applied */
     float alpha_cutoff;
     float roughness, metallic;
-    float uv_transform[6];     /**< base colour KHR_texture_transform: u' = a u + b v + c; v' = d u + e v + f */
+    float uv_transform[6]; /**< base colour KHR_texture_transform: u' = a u + b v + c; v' = d u + e v + f */
     float reserved;
 } EnfMaterial; /* 88 bytes */
 
@@ -102,20 +104,24 @@ typedef struct EnfImage {
 
 typedef enum EnfLightKind { ENF_LIGHT_POINT, ENF_LIGHT_SPOT, ENF_LIGHT_DIRECTIONAL } EnfLightKind;
 typedef struct EnfLight {
-    double position[3];  /**< world */
-    float direction[3];  /**< world, unit */
-    float color[3];      /**< linear, times intensity (candela; lux for directional) */
-    float range;         /**< metres; derived where the file gives none */
+    double position[3]; /**< world */
+    float direction[3]; /**< world, unit */
+    float color[3];     /**< linear, times intensity (candela; lux for directional) */
+    float range;        /**< metres; derived where the file gives none */
     float inner_cos, outer_cos;
-    uint32_t kind;       /**< EnfLightKind */
-    uint32_t cell;       /**< where it stands, or ENF_NONE (directional) */
+    uint32_t kind; /**< EnfLightKind */
+    uint32_t cell; /**< where it stands, or ENF_NONE (directional) */
     uint32_t name;
 } EnfLight; /* 24 + 48 = 72 bytes */
 
 /** A light that reaches a cell, through windows: lit is what lies inside all its planes (relative to the light's position:
  *  n·(p − light) >= 0), none for the light's own cell. A cell has one ref for each opening the light comes through. */
-typedef struct EnfLightRef { uint32_t light, plane_first, plane_count; } EnfLightRef; /* 12 bytes */
-typedef struct EnfPlane4f { float n[3], d; } EnfPlane4f; /* 16 bytes */
+typedef struct EnfLightRef {
+    uint32_t light, plane_first, plane_count;
+} EnfLightRef; /* 12 bytes */
+typedef struct EnfPlane4f {
+    float n[3], d;
+} EnfPlane4f; /* 16 bytes */
 
 /** A node that is not geometry (or carries extras, or is animated): spawn points, cameras, markers, props' metadata. */
 typedef struct EnfEntity {
@@ -123,64 +129,68 @@ typedef struct EnfEntity {
     float rotation[4];     /**< world quaternion x, y, z, w */
     float scale[3];
     uint32_t name, classname, extras; /**< strings; extras is the node's JSON object as text, or "" */
-    uint32_t parent;       /**< entity or ENF_NONE */
-    uint32_t cell;         /**< where it lies, or ENF_NONE */
-    uint32_t camera;       /**< in cameras, or ENF_NONE */
-    uint32_t light;        /**< in lights, or ENF_NONE */
-} EnfEntity; /* 24 + 56 = 80 bytes */
+    uint32_t parent;                  /**< entity or ENF_NONE */
+    uint32_t cell;                    /**< where it lies, or ENF_NONE */
+    uint32_t camera;                  /**< in cameras, or ENF_NONE */
+    uint32_t light;                   /**< in lights, or ENF_NONE */
+} EnfEntity;                          /* 24 + 56 = 80 bytes */
 
-typedef struct EnfMapCamera { float fov_y, aspect, near_plane, far_plane; } EnfMapCamera; /* radians; 16 bytes */
+typedef struct EnfMapCamera {
+    float fov_y, aspect, near_plane, far_plane;
+} EnfMapCamera; /* radians; 16 bytes */
 
 /** An animation channel of an entity: key times (seconds) and values in path_floats: key_count times, then the values
  *  (× 3 for cubic: in-tangent, value, out-tangent). */
 typedef enum EnfPathTarget { ENF_PATH_TRANSLATION, ENF_PATH_ROTATION, ENF_PATH_SCALE } EnfPathTarget;
 typedef enum EnfPathKind { ENF_PATH_STEP, ENF_PATH_LINEAR, ENF_PATH_CUBIC } EnfPathKind;
 typedef struct EnfPath {
-    uint32_t name;       /**< the animation's name */
+    uint32_t name; /**< the animation's name */
     uint32_t entity;
-    uint32_t target;     /**< EnfPathTarget */
-    uint32_t kind;       /**< EnfPathKind */
+    uint32_t target; /**< EnfPathTarget */
+    uint32_t kind;   /**< EnfPathKind */
     uint32_t key_count;
     uint32_t float_first;
 } EnfPath; /* 24 bytes */
 
 /** The chunks of a map in dependency order: X(TYPE, array, FOURCC). One table drives reader, checker, writer and tests. */
-#define ENF_MAP_CHUNKS(X)                                                                                              \
-    X(char, strings, "STRS")                                                                                           \
-    X(EnfImage, images, "IMGS")                                                                                        \
-    X(uint8_t, pixels, "PIXL")                                                                                         \
-    X(EnfTexture, textures, "TEXS")                                                                                    \
-    X(EnfMaterial, materials, "MATS")                                                                                  \
-    X(EnfCell, cells, "CELL")                                                                                          \
-    X(EnfTransform, transforms, "XFRM")                                                                                \
-    X(EnfPortal, portals, "PORT")                                                                                      \
-    X(EnfVec3f, portal_vertices, "PVTX")                                                                               \
-    X(EnfPlane4f, bound_planes, "BPLN")                                                                                \
-    X(EnfVertex, vertices, "VERT")                                                                                     \
-    X(uint32_t, indices, "INDX")                                                                                        \
-    X(EnfCluster, clusters, "CLUS")                                                                                    \
-    X(EnfKdNode, kd_nodes, "KDND")                                                                                     \
-    X(EnfKdBlock, kd_blocks, "KDBL")                                                                                   \
-    X(EnfLight, lights, "LGHT")                                                                                        \
-    X(EnfLightRef, light_refs, "LREF")                                                                                 \
-    X(EnfPlane4f, light_planes, "LPLN")                                                                                \
-    X(EnfMapCamera, cameras, "CAMS")                                                                                   \
-    X(EnfEntity, entities, "ENTS")                                                                                     \
-    X(EnfPath, paths, "PATH")                                                                                          \
-    X(float, path_floats, "PFLT")                                                                                      \
-    X(EnfKdNode, cell_nodes, "CKDN")                                                                                   \
+#define ENF_MAP_CHUNKS(X)                                                                                                      \
+    X(char, strings, "STRS")                                                                                                   \
+    X(EnfImage, images, "IMGS")                                                                                                \
+    X(uint8_t, pixels, "PIXL")                                                                                                 \
+    X(EnfTexture, textures, "TEXS")                                                                                            \
+    X(EnfMaterial, materials, "MATS")                                                                                          \
+    X(EnfCell, cells, "CELL")                                                                                                  \
+    X(EnfTransform, transforms, "XFRM")                                                                                        \
+    X(EnfPortal, portals, "PORT")                                                                                              \
+    X(EnfVec3f, portal_vertices, "PVTX")                                                                                       \
+    X(EnfPlane4f, bound_planes, "BPLN")                                                                                        \
+    X(EnfVertex, vertices, "VERT")                                                                                             \
+    X(uint32_t, indices, "INDX")                                                                                               \
+    X(EnfCluster, clusters, "CLUS")                                                                                            \
+    X(EnfKdNode, kd_nodes, "KDND")                                                                                             \
+    X(EnfKdBlock, kd_blocks, "KDBL")                                                                                           \
+    X(EnfLight, lights, "LGHT")                                                                                                \
+    X(EnfLightRef, light_refs, "LREF")                                                                                         \
+    X(EnfPlane4f, light_planes, "LPLN")                                                                                        \
+    X(EnfMapCamera, cameras, "CAMS")                                                                                           \
+    X(EnfEntity, entities, "ENTS")                                                                                             \
+    X(EnfPath, paths, "PATH")                                                                                                  \
+    X(float, path_floats, "PFLT")                                                                                              \
+    X(EnfKdNode, cell_nodes, "CKDN")                                                                                           \
     X(EnfKdBlock, cell_blocks, "CKDB")
 
 /** Indices are absolute vertex numbers, so neighbouring clusters of one material merge into one draw range; clusters are
  *  ordered by (cell, material). cell_nodes/cell_blocks: one kd-tree over the world boxes of all cells but OUTSIDE (items are cells), relative to `tree_origin`. */
 typedef struct EnfMap {
-#define ENF_MAP_FIELD(type, array, fourcc) const type *array; uint32_t array##_count;
+#define ENF_MAP_FIELD(type, array, fourcc)                                                                                     \
+    const type *array;                                                                                                         \
+    uint32_t array##_count;
     ENF_MAP_CHUNKS(ENF_MAP_FIELD)
 #undef ENF_MAP_FIELD
     double tree_origin[3];
-    uint64_t hash;          /**< of the content: identifies the map in recordings */
-    uint64_t source_hash;   /**< of the glTF and project that it was compiled from */
-    EnfFile file;           /**< the memory behind the arrays (empty where the caller owns them) */
+    uint64_t hash;        /**< of the content: identifies the map in recordings */
+    uint64_t source_hash; /**< of the glTF and project that it was compiled from */
+    EnfFile file;         /**< the memory behind the arrays (empty where the caller owns them) */
 } EnfMap;
 
 /** Reads and checks: the map either is sound or is refused with file, byte offset and field. Free with enf_map_free. */
@@ -199,7 +209,10 @@ EnfResult enf_map_write(const EnfMap *map, const char *path, EnfError *error);
 uint64_t enf_map_content_hash(const EnfMap *map);
 
 /** A string of the map; "" for offset 0. */
-static inline const char *enf_map_string(const EnfMap *map, uint32_t offset) { return map->strings + offset; }
+static inline const char *enf_map_string(const EnfMap *map, uint32_t offset)
+{
+    return map->strings + offset;
+}
 
 /** The kd-tree of a cell: items are clusters (its own and those of other cells that reach into it). */
 EnfKdTree enf_map_cell_tree(const EnfMap *map, uint32_t cell);
@@ -220,7 +233,11 @@ bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws);
 uint32_t enf_map_track(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 to_ws);
 
 /** The nearest triangle of a cell's clusters hit by a ray, front or back. */
-typedef struct EnfRayHit { double t; uint32_t cluster, triangle; bool front; } EnfRayHit;
+typedef struct EnfRayHit {
+    double t;
+    uint32_t cluster, triangle;
+    bool front;
+} EnfRayHit;
 bool enf_map_ray(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 direction, double t_max, EnfRayHit *hit);
 
 #ifdef __cplusplus

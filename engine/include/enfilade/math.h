@@ -12,26 +12,69 @@ extern "C" {
 
 #define ENF_PI 3.14159265358979323846
 
-typedef struct EnfVec3 { double x, y, z; } EnfVec3;
-typedef struct EnfVec3f { float x, y, z; } EnfVec3f;
-typedef struct EnfQuat { double x, y, z, w; } EnfQuat;
+typedef struct EnfVec3 {
+    double x, y, z;
+} EnfVec3;
+typedef struct EnfVec3f {
+    float x, y, z;
+} EnfVec3f;
+typedef struct EnfQuat {
+    double x, y, z, w;
+} EnfQuat;
 /** Axis-aligned box in world or cell space; empty when min > max. */
-typedef struct EnfBox3 { EnfVec3 min, max; } EnfBox3;
-typedef struct EnfBox3f { EnfVec3f min, max; } EnfBox3f;
+typedef struct EnfBox3 {
+    EnfVec3 min, max;
+} EnfBox3;
+typedef struct EnfBox3f {
+    EnfVec3f min, max;
+} EnfBox3f;
 /** n·p + d = 0; n is unit length unless said otherwise. */
-typedef struct EnfPlane { EnfVec3 n; double d; } EnfPlane;
+typedef struct EnfPlane {
+    EnfVec3 n;
+    double d;
+} EnfPlane;
 /** An affine map: p' = m p + t, m column-major (m[3*c + r]). Rigid motions, reflections and node transforms. */
-typedef struct EnfAffine { double m[9]; EnfVec3 t; } EnfAffine;
-typedef struct EnfMat4 { double m[16]; } EnfMat4; /**< column-major */
-typedef struct EnfMat4f { float m[16]; } EnfMat4f;
+typedef struct EnfAffine {
+    double m[9];
+    EnfVec3 t;
+} EnfAffine;
+typedef struct EnfMat4 {
+    double m[16];
+} EnfMat4; /**< column-major */
+typedef struct EnfMat4f {
+    float m[16];
+} EnfMat4f;
 
-static inline EnfVec3 enf_v3(double x, double y, double z) { EnfVec3 v = {x, y, z}; return v; }
-static inline EnfVec3 enf_v3_from_f(EnfVec3f a) { return enf_v3((double)a.x, (double)a.y, (double)a.z); }
-static inline EnfVec3f enf_v3f(EnfVec3 a) { EnfVec3f v = {(float)a.x, (float)a.y, (float)a.z}; return v; }
-static inline EnfVec3 enf_add(EnfVec3 a, EnfVec3 b) { return enf_v3(a.x + b.x, a.y + b.y, a.z + b.z); }
-static inline EnfVec3 enf_sub(EnfVec3 a, EnfVec3 b) { return enf_v3(a.x - b.x, a.y - b.y, a.z - b.z); }
-static inline EnfVec3 enf_scale(EnfVec3 a, double s) { return enf_v3(a.x * s, a.y * s, a.z * s); }
-static inline double enf_dot(EnfVec3 a, EnfVec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline EnfVec3 enf_v3(double x, double y, double z)
+{
+    EnfVec3 v = {x, y, z};
+    return v;
+}
+static inline EnfVec3 enf_v3_from_f(EnfVec3f a)
+{
+    return enf_v3((double)a.x, (double)a.y, (double)a.z);
+}
+static inline EnfVec3f enf_v3f(EnfVec3 a)
+{
+    EnfVec3f v = {(float)a.x, (float)a.y, (float)a.z};
+    return v;
+}
+static inline EnfVec3 enf_add(EnfVec3 a, EnfVec3 b)
+{
+    return enf_v3(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+static inline EnfVec3 enf_sub(EnfVec3 a, EnfVec3 b)
+{
+    return enf_v3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+static inline EnfVec3 enf_scale(EnfVec3 a, double s)
+{
+    return enf_v3(a.x * s, a.y * s, a.z * s);
+}
+static inline double enf_dot(EnfVec3 a, EnfVec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 static inline EnfVec3 enf_cross(EnfVec3 a, EnfVec3 b)
 {
     return enf_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
@@ -50,8 +93,8 @@ EnfBox3 enf_box3_empty(void);
 EnfBox3 enf_box3_add(EnfBox3 box, EnfVec3 p);
 EnfBox3 enf_box3_union(EnfBox3 a, EnfBox3 b);
 bool enf_box3_is_empty(EnfBox3 box);
-bool enf_box3_contains(EnfBox3 box, EnfVec3 p);  /**< closed */
-bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b);    /**< closed: touching counts */
+bool enf_box3_contains(EnfBox3 box, EnfVec3 p); /**< closed */
+bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b);   /**< closed: touching counts */
 /** Rounded outward to float: contains `box`. @guarantee tests/unit/test_math */
 EnfBox3f enf_box3f_outward(EnfBox3 box);
 EnfBox3 enf_box3_from_f(EnfBox3f box);
@@ -75,7 +118,9 @@ EnfPlane enf_plane_from_polygon(const EnfVec3 *points, uint32_t count);
 
 /* Exact predicates on the compiler's grid: coordinates are integers in units of 2^-12 m, |x| ≤ 2^40. Source: determinants
  * in __int128, no rounding anywhere. */
-typedef struct EnfGrid3 { int64_t x, y, z; } EnfGrid3;
+typedef struct EnfGrid3 {
+    int64_t x, y, z;
+} EnfGrid3;
 /** Sign of det(b-a, c-a, d-a): +1 if d lies on the side that the right-hand normal of (a,b,c) points to; 0 coplanar.
  *  @guarantee exact for |differences| ≤ 2^40; tests/property/test_predicates (113-bit and 256-bit twins). */
 int enf_orient3(EnfGrid3 a, EnfGrid3 b, EnfGrid3 c, EnfGrid3 d);

@@ -22,11 +22,11 @@ typedef enum EnfGrain { ENF_GRAIN_OBJECTS, ENF_GRAIN_PRIMITIVES } EnfGrain;
 
 typedef struct EnfView {
     EnfCamera camera;
-    uint32_t cell;            /**< the eye's cell, or ENF_NONE: outside every cell, everything in the frustum is listed */
+    uint32_t cell; /**< the eye's cell, or ENF_NONE: outside every cell, everything in the frustum is listed */
     EnfCull cull;
     EnfWindowMode window;
     EnfGrain grain;
-    uint32_t max_steps;       /**< portals tested before the traversal gives up and lists the frustum; 0: no limit for worklist,
+    uint32_t max_steps; /**< portals tested before the traversal gives up and lists the frustum; 0: no limit for worklist,
                                    65,536 for sequences, which then falls back to worklist (draw, never hide) */
 } EnfView;
 
@@ -38,17 +38,19 @@ EnfView enf_view_default(void);
 typedef struct EnfVisit {
     uint32_t cell;
     uint32_t space;
-    uint32_t portal;          /**< half-portal first entered through, ENF_NONE for the eye's cell */
-    uint32_t parent;          /**< visit it was first entered from, or ENF_NONE */
+    uint32_t portal; /**< half-portal first entered through, ENF_NONE for the eye's cell */
+    uint32_t parent; /**< visit it was first entered from, or ENF_NONE */
     EnfWindow window;
-    uint32_t polygon;         /**< in EnfVisSet.polygons, or ENF_NONE (box windows) */
+    uint32_t polygon; /**< in EnfVisSet.polygons, or ENF_NONE (box windows) */
 } EnfVisit;
 
-typedef struct EnfVisEntry { uint32_t cluster, space, visit; } EnfVisEntry;
+typedef struct EnfVisEntry {
+    uint32_t cluster, space, visit;
+} EnfVisEntry;
 
 typedef struct EnfVisCounters {
-    uint32_t portals_tested;  /**< half-portals looked at, closed and averted ones included */
-    uint32_t portals_passed;  /**< of these, with a window left */
+    uint32_t portals_tested; /**< half-portals looked at, closed and averted ones included */
+    uint32_t portals_passed; /**< of these, with a window left */
     uint32_t visits, cells;
     uint32_t requeued;        /**< cells whose window grew after they had been worked on */
     uint32_t kd_nodes, boxes; /**< tested against a pyramid */
@@ -65,11 +67,11 @@ typedef struct EnfVisCounters {
 typedef struct EnfVisSet {
     const EnfVisit *visits;
     uint32_t visit_count;
-    const uint32_t *cells;            /**< distinct visible cells, ascending */
+    const uint32_t *cells; /**< distinct visible cells, ascending */
     uint32_t cell_count;
-    const EnfVisEntry *entries;       /**< visible clusters, ascending by (space, cluster[, visit]): the canonical order */
+    const EnfVisEntry *entries; /**< visible clusters, ascending by (space, cluster[, visit]): the canonical order */
     uint32_t entry_count;
-    const EnfCamera *cameras;         /**< one a space: the eye as that space sees it; [0] is the view's camera */
+    const EnfCamera *cameras; /**< one a space: the eye as that space sees it; [0] is the view's camera */
     uint32_t space_count;
     const EnfWindowPolygon *polygons;
     uint32_t polygon_count;

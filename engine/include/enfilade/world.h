@@ -12,19 +12,19 @@ extern "C" {
 
 /** A half-portal as the traversal uses it: 64 bytes, one cache line; the plane is derived from the points (PITFALLS 15). */
 typedef struct EnfPortalState {
-    EnfVec3 normal;           /**< unit, out of the source cell; zero for overlap links */
-    double d;                 /**< normal·p + d = 0, relative to the source cell's origin */
-    float slab;               /**< metres: no vertex strays farther from the plane; sides are three-valued */
-    uint32_t vertex_first;    /**< in EnfPortals.vertices */
+    EnfVec3 normal;        /**< unit, out of the source cell; zero for overlap links */
+    double d;              /**< normal·p + d = 0, relative to the source cell's origin */
+    float slab;            /**< metres: no vertex strays farther from the plane; sides are three-valued */
+    uint32_t vertex_first; /**< in EnfPortals.vertices */
     uint16_t vertex_count;
-    uint16_t flags;           /**< ENF_PORTAL_* ; CLOSED is the current state */
+    uint16_t flags; /**< ENF_PORTAL_* ; CLOSED is the current state */
     uint32_t source, target, twin, transform;
 } EnfPortalState;
 
 typedef struct EnfPortals {
     const EnfMap *map;
-    EnfPortalState *states;   /**< one a half-portal of the map, same indices */
-    EnfVec3f *vertices;       /**< a copy of map->portal_vertices that may be moved */
+    EnfPortalState *states; /**< one a half-portal of the map, same indices */
+    EnfVec3f *vertices;     /**< a copy of map->portal_vertices that may be moved */
     uint32_t count, vertex_count;
     const EnfAllocator *allocator;
 } EnfPortals;
