@@ -73,10 +73,10 @@ void enf_test_begin(int argc, char **argv);
 int enf_test_end(int failed);
 
 /** The suite's main. `tests` is an array of struct CMUnitTest. An argument is a pattern of case names ("round*"). */
-#define ENF_TEST_MAIN(tests)                                                                                           \
-    int main(int argc, char **argv) {                                                                                  \
-        enf_test_begin(argc, argv);                                                                                    \
-        return enf_test_end(cmocka_run_group_tests(tests, NULL, NULL));                                                \
+#define ENF_TEST_MAIN(tests)                                                                                                   \
+    int main(int argc, char **argv) {                                                                                          \
+        enf_test_begin(argc, argv);                                                                                            \
+        return enf_test_end(cmocka_run_group_tests(tests, NULL, NULL));                                                        \
     }
 
 #endif

@@ -17,14 +17,13 @@ struct CMUnitTest {
     void *initial_state;
 };
 
-#define cmocka_unit_test(f)                                                                                            \
+#define cmocka_unit_test(f)                                                                                                    \
     { #f, f, NULL, NULL, NULL }
-#define cmocka_unit_test_setup_teardown(f, setup, teardown)                                                            \
+#define cmocka_unit_test_setup_teardown(f, setup, teardown)                                                                    \
     { #f, f, setup, teardown, NULL }
-#define cmocka_unit_test_prestate(f, state)                                                                            \
+#define cmocka_unit_test_prestate(f, state)                                                                                    \
     { #f, f, NULL, NULL, state }
-#define cmocka_run_group_tests(tests, setup, teardown)                                                                 \
-    standin_run(tests, sizeof(tests) / sizeof((tests)[0]), setup, teardown)
+#define cmocka_run_group_tests(tests, setup, teardown) standin_run(tests, sizeof(tests) / sizeof((tests)[0]), setup, teardown)
 
 int standin_run(const struct CMUnitTest *tests, size_t count, CMFixtureFunction setup, CMFixtureFunction teardown);
 void cmocka_set_test_filter(const char *pattern);
@@ -55,9 +54,8 @@ void standin_memory(const void *a, const void *b, size_t size, const char *file,
 #define assert_string_equal(a, b) standin_strings(a, b, 1, __FILE__, __LINE__)
 #define assert_string_not_equal(a, b) standin_strings(a, b, 0, __FILE__, __LINE__)
 #define assert_memory_equal(a, b, size) standin_memory(a, b, size, __FILE__, __LINE__)
-#define assert_in_range(v, low, high)                                                                                  \
-    assert_true((uintmax_t)(v) >= (uintmax_t)(low) && (uintmax_t)(v) <= (uintmax_t)(high))
-#define assert_float_equal(a, b, epsilon)                                                                              \
+#define assert_in_range(v, low, high) assert_true((uintmax_t)(v) >= (uintmax_t)(low) && (uintmax_t)(v) <= (uintmax_t)(high))
+#define assert_float_equal(a, b, epsilon)                                                                                      \
     assert_true((double)(a) - (double)(b) <= (double)(epsilon) && (double)(b) - (double)(a) <= (double)(epsilon))
 #define assert_double_equal(a, b, epsilon) assert_float_equal(a, b, epsilon)
 
