@@ -12,6 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import building  # noqa: E402  (Blender runs this file alone; its neighbours need the path above)
 import openings  # noqa: E402
 import plan  # noqa: E402
+import tour  # noqa: E402
 from scene import Scene  # noqa: E402
 from shell import centre_of  # noqa: E402
 
@@ -21,6 +22,7 @@ EYE = 1.7
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="palace.py", description="Builds the palace in Blender and exports it.")
     parser.add_argument("--output", required=True, help="the .glb to write")
+    parser.add_argument("--tour", help="the .csv of the walk; by default tour.csv in maps/palace")
     parser.add_argument("--blend", help="also save the Blender file here")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
@@ -48,6 +50,8 @@ def main():
     build_shells(scene, rooms, portals)
     light_rooms(scene, rooms)
     scene.spawn("EntranceHall", (0.0, -15.0, 0.0), 0.0, EYE)
+    tour.write(arguments.tour or Path(__file__).resolve().parents[2] / "maps" / "palace" / "tour.csv",
+               tour.walk(rooms, portals))
     scene.export(str(Path(arguments.output).resolve()))
 
 
