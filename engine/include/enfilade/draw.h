@@ -37,6 +37,10 @@ typedef struct EnfDrawList {
     uint32_t cluster_count, triangle_count;
 } EnfDrawList;
 
+/** The near plane of the programs, metres: nearer than any eye comes to a wall, far enough for a 32-bit depth buffer to tell
+ *  surfaces a millimetre apart at 50 m. Visibility knows no near plane (PITFALLS 2). */
+#define ENF_DRAW_NEAR (1.0 / 64.0)
+
 typedef struct EnfDraw EnfDraw;
 EnfResult enf_draw_create(EnfDraw **draw, const EnfMap *map, const EnfAllocator *allocator, EnfError *error);
 void enf_draw_destroy(EnfDraw *draw);

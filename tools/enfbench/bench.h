@@ -1,0 +1,74 @@
+/* enfbench: run time against error. An experiment makes rows; a row carries its time, its error and the hash of its result.
+ *
+ * Ratios are measured side by side: the techniques of one experiment take turns within one run, so that a machine whose speed
+ * drifts slows all of them. */
+#ifndef ENFBENCH_BENCH_H
+#define ENFBENCH_BENCH_H
+
+#include <enfilade/base.h>
+
+#define BENCH_TEXT 128
+
+/** One line of the result: a technique on a scene. Counts are means over the frames; -1 where a column does not apply. */
+typedef struct BenchRow {
+    char experiment[32], scene[64], technique[32], params[BENCH_TEXT];
+    uint32_t frames;
+    double median_us, p99_us; /**< of what the experiment times, a frame */
+    double lost_objects;      /**< objects that show a pixel (or that brute force finds) and were not listed, all frames */
+    double lost_pixels;       /**< pixels that differ from the unculled picture, all frames */
+    double overdraw;          /**< objects listed / objects that show a pixel */
+    double cells, portals, nodes, boxes, objects;
+    uint64_t hash;
+    double vis_median_us, vis_p99_us; /**< visibility alone, where median_us is the whole frame */
+    double ratio_median, ratio_best;  /**< time of the baseline / time of this technique, frame by frame */
+} BenchRow;
+
+/** A row with every optional column at -1. */
+BenchRow bench_row(const char *experiment, const char *scene, const char *technique);
+
+typedef struct BenchRows {
+    BenchRow *rows;
+    uint32_t count, capacity;
+} BenchRows;
+
+/** Appends a copy; ends the program when memory is out. */
+void bench_rows_add(BenchRows *rows, const BenchRow *row);
+
+/** The knobs given by --set KEY=VALUE. */
+typedef struct BenchKnobs {
+    struct {
+        char key[32], value[BENCH_TEXT];
+        bool used;
+    } items[64];
+    uint32_t count;
+} BenchKnobs;
+
+double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double min, double max);
+const char *bench_knob_text(BenchKnobs *knobs, const char *key, const char *fallback);
+
+typedef struct BenchRun {
+    BenchRows rows;
+    BenchKnobs knobs;
+    bool progress; /**< stderr is a terminal */
+} BenchRun;
+
+/** Runs an experiment; false (after a message on stderr) if it could not. */
+typedef bool BenchFn(BenchRun *run);
+
+/** The table of experiments: BENCH(name, function, "what it shows", "knobs"). */
+#define BENCH(name, function, about, knobs) BenchFn function;
+#include "enfbench/experiments.inl"
+#undef BENCH
+
+/* ---- timing ---- */
+double bench_now_us(void);
+/** A sample's quantile in [0,1]; sorts `values`. */
+double bench_quantile(double *values, uint32_t count, double quantile);
+void bench_progress(const BenchRun *run, const char *format, ...);
+
+/* ---- report.c ---- */
+void bench_print_table(const BenchRows *rows);
+EnfResult bench_write_csv(const BenchRows *rows, const char *path, EnfError *error);
+EnfResult bench_write_json(const BenchRows *rows, const char *path, EnfError *error);
+
+#endif

@@ -1,0 +1,89 @@
+/* Rows, knobs, clocks and quantiles: what every experiment needs. */
+#include "enfbench/bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+BenchRow bench_row(const char *experiment, const char *scene, const char *technique) {
+    BenchRow row;
+    memset(&row, 0, sizeof row);
+    snprintf(row.experiment, sizeof row.experiment, "%s", experiment);
+    snprintf(row.scene, sizeof row.scene, "%s", scene);
+    snprintf(row.technique, sizeof row.technique, "%s", technique);
+    row.lost_objects = row.lost_pixels = row.overdraw = -1.0;
+    row.cells = row.portals = row.nodes = row.boxes = row.objects = -1.0;
+    row.vis_median_us = row.vis_p99_us = row.ratio_median = row.ratio_best = -1.0;
+    return row;
+}
+
+void bench_rows_add(BenchRows *rows, const BenchRow *row) {
+    if (rows->count == rows->capacity) {
+        uint32_t capacity = rows->capacity == 0 ? 64 : rows->capacity * 2;
+        BenchRow *grown = realloc(rows->rows, capacity * sizeof *grown);
+        if (grown == NULL) {
+            fputs("enfbench: out of memory\n", stderr);
+            exit(1);
+        }
+        rows->rows = grown;
+        rows->capacity = capacity;
+    }
+    rows->rows[rows->count++] = *row;
+}
+
+const char *bench_knob_text(BenchKnobs *knobs, const char *key, const char *fallback) {
+    for (uint32_t i = knobs->count; i > 0; i--) {
+        if (strcmp(knobs->items[i - 1].key, key) == 0) {
+            knobs->items[i - 1].used = true;
+            return knobs->items[i - 1].value;
+        }
+    }
+    return fallback;
+}
+
+double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double min, double max) {
+    const char *text = bench_knob_text(knobs, key, NULL);
+    if (text == NULL) {
+        return fallback;
+    }
+    char *end = NULL;
+    double value = strtod(text, &end);
+    if (end == text || *end != '\0' || !(value >= min && value <= max)) {
+        fprintf(stderr, "enfbench: %s=%s: a number in [%g, %g] is expected\n", key, text, min, max);
+        exit(2);
+    }
+    return value;
+}
+
+double bench_now_us(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e6 + (double)now.tv_nsec * 1e-3;
+}
+
+static int ascending(const void *a, const void *b) {
+    double x = *(const double *)a;
+    double y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_quantile(double *values, uint32_t count, double quantile) {
+    if (count == 0) {
+        return -1.0;
+    }
+    qsort(values, count, sizeof *values, ascending);
+    return values[(uint32_t)(quantile * (double)(count - 1) + 0.5)];
+}
+
+void bench_progress(const BenchRun *run, const char *format, ...) {
+    if (!run->progress) {
+        return;
+    }
+    va_list args;
+    va_start(args, format);
+    fputs("\r\x1b[K", stderr);
+    vfprintf(stderr, format, args);
+    va_end(args);
+    fflush(stderr);
+}
