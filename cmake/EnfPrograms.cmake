@@ -64,7 +64,7 @@ function(enf_program name)
       target_link_libraries(${name} PRIVATE ${optional})
     endif()
   endforeach()
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
 enf_program(enfc enf_compile)

@@ -79,5 +79,14 @@ foreach(line ${suite_lines})
   enf_suite(${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3})
 endforeach()
 
+# enf_core as somebody else uses it: installed, found, linked, and given a level.
+if(TARGET enf_core AND TARGET enfc AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE)
+  add_test(NAME install COMMAND ${CMAKE_COMMAND} -DBUILD=${CMAKE_BINARY_DIR} -DWORK=${CMAKE_BINARY_DIR}/install_test
+                                -DCOMPILER=${CMAKE_C_COMPILER} -DENFC=$<TARGET_FILE:enfc>
+                                -DLEVEL=${PROJECT_SOURCE_DIR}/assets/palace/palace.glb "-DEYE=0;1.7;15;0"
+                                -P ${PROJECT_SOURCE_DIR}/tests/install/install.cmake)
+  set_tests_properties(install PROPERTIES LABELS fast TIMEOUT ${ENF_TIMEOUT_FAST})
+endif()
+
 include(EnfStyle)
-include(EnfFuzz OPTIONAL)
+include(EnfFuzz)
