@@ -23,3 +23,6 @@ enf_lint(tidy long ${CMAKE_BINARY_DIR})
 if(TARGET enf_core AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE AND NOT ENF_FUZZ AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)
   enf_lint(symbols fast ${CMAKE_NM} $<TARGET_FILE:enf_core>)
 endif()
+
+add_test(NAME tally.self COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tests/tally.py --self-test)
+set_tests_properties(tally.self PROPERTIES LABELS "fast;style" TIMEOUT 60)

@@ -22,7 +22,29 @@ def tally_test(case):
     return (1, 0, 0) if status == "run" else (0, 0, 1)
 
 
+def own_test():
+    """Shows tally_test one report of each kind."""
+    reports = {
+        '<testcase status="run"><system-out>[  PASSED  ] 7 test(s).\n</system-out></testcase>': (7, 0, 0),
+        '<testcase status="run"><system-out>[  PASSED  ] 5 test(s).\n[  SKIPPED ] 2 test(s), listed below:\n'
+        '</system-out></testcase>': (5, 0, 2),
+        '<testcase status="fail"><failure/><system-out>[  PASSED  ] 5 test(s).\n[  FAILED  ] 2 test(s), listed below:\n'
+        '</system-out></testcase>': (5, 2, 0),
+        '<testcase status="fail"><failure/><system-out>Segmentation fault\n</system-out></testcase>': (0, 1, 0),
+        '<testcase status="run"><system-out>layers: 0 problem(s)\n</system-out></testcase>': (1, 0, 0),
+        '<testcase status="notrun"><skipped/></testcase>': (0, 0, 1),
+    }
+    for text, expected in reports.items():
+        got = tally_test(xml.etree.ElementTree.fromstring(text))
+        if got != expected:
+            sys.exit(f"wanted {expected}, got {got} from {text}")
+    print(f"{len(reports)} reports tallied")
+
+
 def main():
+    if sys.argv[1:] == ["--self-test"]:
+        own_test()
+        return
     totals = [0, 0, 0]
     for path in sys.argv[1:]:
         for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
