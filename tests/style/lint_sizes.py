@@ -35,6 +35,8 @@ def closing(text, start, opener, closer):
 
 
 def count_parameters(text):
+    """The named parameters: the "..." of a variadic function is none."""
+    text = re.sub(r",\s*\.\.\.\s*$", "", text)
     if text.strip() in ("", "void"):
         return 0
     depth, count = 0, 1
@@ -136,6 +138,7 @@ def own_test():
         ("6 parameters", check_sizes("a.h", "void f(int a, int b, int c, int d, int e, int (*g)(int, int));\n"), None),
         ("7 parameters", check_sizes("a.h", "void f(int a, int b, int c, int d, int e, int g, int h);\n"),
          "f has 7 parameters"),
+        ("6 and more to print", check_sizes("a.h", "void f(int a, int b, int c, int d, int e, char *g, ...);\n"), None),
         ("7 parameters of a body", check_sizes("a.c", "int\nf(int a, int b, int c, int d, int e, int g, int h) {\n}\n"),
          "f has 7 parameters"),
         ("a call is no head", check_sizes("a.c", "void f(void) {\n    g(1, 2, 3, 4, 5, 6, 7);\n}\n"), None),
