@@ -31,7 +31,8 @@ typedef struct EnfCell {
     uint32_t block_first, block_count;     /**< kd leaf blocks */
     uint32_t cluster_first, cluster_count; /**< clusters whose home is this cell, contiguous */
     uint32_t light_first, light_count;     /**< in light_refs: lights that reach it */
-    uint32_t bound_first, bound_count;     /**< in bound_planes: convex `-bound` region, or none */
+    uint32_t bound_first, bound_count;     /**< in bound_planes, normals outward, relative to origin:
+                                               inside n·p + d <= 0 for all; or none */
     uint32_t reserved;
 } EnfCell; /* 24 + 24 + 64 = 112 bytes */
 

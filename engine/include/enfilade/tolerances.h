@@ -28,6 +28,11 @@
  *  Pinned by tests/unit/test_world. */
 #define ENF_TOL_PORTAL_FLAT (16.0 * ENF_GRID_STEP)
 
+/** How far, entry by entry, a portal's transform may be from orthonormal (|mᵀm − 1|; no unit). Products of a dozen exact
+ *  rotations in double stay below 2^-47; at 2^-40 a point 4,096 m from the centre is misplaced by less than 2^-28 m, far below a
+ *  grid step. A matrix read in float32 must be orthonormalised first. Pinned by tests/unit/test_map. */
+#define ENF_TOL_RIGID 0x1p-40
+
 /** Windows are fixed point with this many steps a pixel. */
 #define ENF_WINDOW_STEPS 16
 
