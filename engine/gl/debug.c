@@ -1,0 +1,44 @@
+/* Draws over a picture what an engineer wants to see: lines, and the clusters of a list as wireframe. */
+#include "gl/gl_internal.h"
+
+void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count, bool through) {
+    ENF_ASSERT(gl && (vertices || count == 0));
+    if (count == 0) {
+        return;
+    }
+    const EnfGlFunctions *f = &gl->f;
+    const EnfGlProgram *program = &gl->programs[ENF_GL_PROGRAM_LINES];
+    f->Disable(GL_FRAMEBUFFER_SRGB); /* colours are meant as they look */
+    (through ? f->Disable : f->Enable)(GL_DEPTH_TEST);
+    f->UseProgram(program->name);
+    f->UniformMatrix4fv(program->clip_from_eye, 1, GL_FALSE, clip_from_eye);
+    f->BindVertexArray(gl->line_array);
+    f->BindBuffer(GL_ARRAY_BUFFER, gl->line_buffer);
+    f->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *vertices), vertices, GL_STREAM_DRAW);
+    f->DrawArrays(GL_LINES, 0, (GLsizei)count);
+    f->BindVertexArray(0);
+    f->UseProgram(0);
+    f->Enable(GL_DEPTH_TEST);
+}
+
+void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba) {
+    ENF_ASSERT(gl && list);
+    const EnfGlFunctions *f = &gl->f;
+    const EnfGlProgram *program = &gl->programs[ENF_GL_PROGRAM_FLAT];
+    float color[4];
+    for (int i = 0; i < 4; i++) {
+        color[i] = (float)(rgba >> (8 * i) & 255u) / 255.0f;
+    }
+    enf_gl_set_view(gl, list);
+    f->Disable(GL_FRAMEBUFFER_SRGB);
+    f->Disable(GL_CULL_FACE);
+    f->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    f->UseProgram(program->name);
+    f->Uniform4fv(program->flat_color, 1, color);
+    for (uint32_t i = 0; i < list->batch_count; i++) {
+        enf_gl_draw_batch(gl, list, &list->batches[i]);
+    }
+    f->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    f->BindVertexArray(0);
+    f->UseProgram(0);
+}

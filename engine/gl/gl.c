@@ -1,0 +1,77 @@
+/* Makes an EnfGl: everything that drawing a map needs on the GL side, uploaded once. */
+#include <string.h>
+
+#include "gl/gl_internal.h"
+
+EnfResult enf_gl_check(const EnfGl *gl, const char *what, EnfError *error) {
+    GLenum code = gl->f.GetError();
+    if (code == GL_NO_ERROR) {
+        return ENF_OK;
+    }
+    EnfResult result = code == GL_OUT_OF_MEMORY ? ENF_ERROR_MEMORY : ENF_ERROR_SIZE;
+    return enf_error_set(error, result, UINT64_MAX, "OpenGL refuses %s (error 0x%x)", what, code);
+}
+
+static EnfResult check_version(EnfGl *gl, EnfError *error) {
+    GLint major = 0, minor = 0;
+    gl->f.GetIntegerv(GL_MAJOR_VERSION, &major);
+    gl->f.GetIntegerv(GL_MINOR_VERSION, &minor);
+    if (major < 3 || (major == 3 && minor < 3)) {
+        return enf_error_set(error, ENF_ERROR_CONTEXT, UINT64_MAX, "OpenGL %d.%d: 3.3 core is needed", major, minor);
+    }
+    gl->f.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_table);
+    gl->f.GetIntegerv(GL_MAX_TEXTURE_SIZE, &gl->max_texture);
+    return ENF_OK;
+}
+
+static bool has_vertex_colors(const EnfMap *map) {
+    for (uint32_t i = 0; i < map->vertices_count; i++) {
+        if (map->vertices[i].color != UINT32_MAX) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Lamps need a little fill; vertex colours without lamps are baked light, to be shown as it is; with neither, a bright
+ * hemisphere and a slanting key tell walls, floor and ceiling apart. */
+static EnfGlAmbient choose_ambient(const EnfMap *map) {
+    static const EnfGlAmbient fill = {{0.065f, 0.060f, 0.058f}, {0.110f, 0.115f, 0.130f}, {0.010f, 0.008f, 0.006f}};
+    static const EnfGlAmbient baked = {{0.94f, 0.94f, 0.94f}, {1.12f, 1.12f, 1.12f}, {0.06f, 0.00f, 0.03f}};
+    static const EnfGlAmbient plain = {{0.50f, 0.48f, 0.46f}, {0.98f, 1.00f, 1.04f}, {0.16f, 0.05f, 0.09f}};
+    return map->lights_count ? fill : has_vertex_colors(map) ? baked : plain;
+}
+
+EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfError *error) {
+    ENF_ASSERT(gl && map && load);
+    *gl = NULL;
+    EnfGl *made = enf_alloc(NULL, 1, sizeof *made);
+    if (!made) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the renderer");
+    }
+    made->map = map;
+    made->ambient = choose_ambient(map);
+    EnfResult result = enf_gl_functions_load(&made->f, load, error);
+    if (result != ENF_OK) {
+        enf_free(NULL, made, 1, sizeof *made);
+        return result;
+    }
+    if ((result = check_version(made, error)) != ENF_OK ||
+        (result = enf_gl_programs_create(&made->f, made->programs, error)) != ENF_OK ||
+        (result = enf_gl_upload_geometry(made, error)) != ENF_OK || (result = enf_gl_upload_textures(made, error)) != ENF_OK) {
+        enf_gl_destroy(made);
+        return result;
+    }
+    *gl = made;
+    return ENF_OK;
+}
+
+void enf_gl_destroy(EnfGl *gl) {
+    if (!gl) {
+        return;
+    }
+    enf_gl_free_textures(gl);
+    enf_gl_free_geometry(gl);
+    enf_gl_programs_destroy(&gl->f, gl->programs);
+    enf_free(NULL, gl, 1, sizeof *gl);
+}

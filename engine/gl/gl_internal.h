@@ -1,0 +1,51 @@
+/* What the files of this room share: the GL objects of one map. */
+#ifndef ENFILADE_GL_INTERNAL_H
+#define ENFILADE_GL_INTERNAL_H
+
+#include "gl/gl_functions.h"
+#include "gl/lights.h"
+#include "gl/shader.h"
+
+/** A buffer read by texelFetch. */
+typedef struct EnfGlTable {
+    GLuint buffer, texture;
+} EnfGlTable;
+
+/** Light that comes from nowhere: hemisphere and a direction that tells walls apart. */
+typedef struct EnfGlAmbient {
+    float ground[3], sky[3], key[3];
+} EnfGlAmbient;
+
+struct EnfGl {
+    EnfGlFunctions f;
+    const EnfMap *map;
+    GLint max_table, max_texture; /**< limits of the driver */
+    GLuint vertex_array, vertex_buffer, light_list_buffer, index_buffer;
+    GLuint line_array, line_buffer;
+    EnfGlTable offsets, lights, light_items, light_planes, clusters;
+    float (*offset_staging)[4]; /**< a cell; only those of the list drawn are current */
+    GLsizei *counts;            /**< a cluster: arguments of a multi-draw */
+    const void **starts;
+    GLuint *images;   /**< a texture for each image of the map */
+    GLuint *samplers; /**< a sampler for each texture of the map */
+    GLuint white;     /**< one white texel, for materials without texture */
+    EnfGlAmbient ambient;
+    EnfGlProgram programs[ENF_GL_PROGRAM_COUNT];
+};
+
+/** upload.c: buffers and tables. */
+EnfResult enf_gl_upload_geometry(EnfGl *gl, EnfError *error);
+void enf_gl_free_geometry(EnfGl *gl);
+/** textures.c: images, mipmaps and samplers. */
+EnfResult enf_gl_upload_textures(EnfGl *gl, EnfError *error);
+void enf_gl_free_textures(EnfGl *gl);
+
+/** render.c: prepares programs for the camera of `list` and uploads the offsets of its cells. */
+void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list);
+/** render.c: the ranges of a batch with whatever program and state are set. */
+void enf_gl_draw_batch(EnfGl *gl, const EnfDrawList *list, const EnfDrawBatch *batch);
+
+/** Reports the first GL error of an upload as SIZE or MEMORY. */
+EnfResult enf_gl_check(const EnfGl *gl, const char *what, EnfError *error);
+
+#endif
