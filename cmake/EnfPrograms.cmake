@@ -72,6 +72,8 @@ enf_program(enfinfo)
 enf_program(enfview enf_gl)
 enf_program(enfbench enf_gl enf_compile)
 if(TARGET enfbench)
-  # The benchmark also times what no public header offers: the variants of engine/simd.
+  # The benchmark also times what no public header offers (the variants of engine/simd), and finds the levels that it
+  # measures by itself: its results are of this source tree.
   target_include_directories(enfbench PRIVATE ${PROJECT_SOURCE_DIR}/engine)
+  target_compile_definitions(enfbench PRIVATE ENF_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ENF_SHARED_DATA="${ENF_SHARED_DATA}")
 endif()
