@@ -6,3 +6,4 @@
  *
  * Write the file first, then its line: a line without a file stops CMake. */
 ENF_SUITE(harness, unit, none)
+ENF_SUITE(draw, unit, core)
