@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <enfilade/draw.h>
+#include <enfilade/tolerances.h>
 
 #include "draw/order.h"
 
