@@ -1,5 +1,5 @@
 /* The rows as a table for people, as CSV and as JSON. One list of columns drives CSV and JSON. */
-#include "common/json.h"
+#include "common/report.h"
 #include "enfbench/bench.h"
 
 #include <inttypes.h>
@@ -90,44 +90,44 @@ EnfResult bench_write_csv(const BenchRows *rows, const char *path, EnfError *err
     return result;
 }
 
-static void json_column(EnfJson *json, const char *name, double value) {
+static void json_column(EnfReport *json, const char *name, double value) {
     if (value < 0.0) {
-        enf_json_null(json, name);
+        enf_report_null(json, name);
     } else {
-        enf_json_number(json, name, value);
+        enf_report_number(json, name, value);
     }
 }
 
-static void json_row(EnfJson *json, const BenchRow *row) {
+static void json_row(EnfReport *json, const BenchRow *row) {
     char hash[32];
     snprintf(hash, sizeof hash, "%016" PRIx64, row->hash);
-    enf_json_object(json, NULL);
-    enf_json_text(json, "experiment", row->experiment);
-    enf_json_text(json, "scene", row->scene);
-    enf_json_text(json, "technique", row->technique);
-    enf_json_text(json, "params", row->params);
-    enf_json_count(json, "frames", row->frames);
+    enf_report_object(json, NULL);
+    enf_report_text(json, "experiment", row->experiment);
+    enf_report_text(json, "scene", row->scene);
+    enf_report_text(json, "technique", row->technique);
+    enf_report_text(json, "params", row->params);
+    enf_report_count(json, "frames", row->frames);
 #define PUT(name) json_column(json, #name, row->name);
     COLUMNS(PUT)
     EXTRA_COLUMNS(PUT)
 #undef PUT
-    enf_json_text(json, "hash", hash);
-    enf_json_end_object(json);
+    enf_report_text(json, "hash", hash);
+    enf_report_end_object(json);
 }
 
 EnfResult bench_write_json(const BenchRows *rows, const char *path, EnfError *error) {
-    EnfJson json;
+    EnfReport json;
     memset(&json, 0, sizeof json);
     json.pretty = true;
-    enf_json_object(&json, NULL);
-    enf_json_array(&json, "rows");
+    enf_report_object(&json, NULL);
+    enf_report_array(&json, "rows");
     for (uint32_t i = 0; i < rows->count; i++) {
         json_row(&json, &rows->rows[i]);
     }
-    enf_json_end_array(&json);
-    enf_json_end_object(&json);
-    EnfResult result = enf_json_save(&json, path, error);
-    enf_json_free(&json);
+    enf_report_end_array(&json);
+    enf_report_end_object(&json);
+    EnfResult result = enf_report_save(&json, path, error);
+    enf_report_free(&json);
     return result;
 }
 
