@@ -1,0 +1,105 @@
+/* View pyramids as float planes for the kd-tree: conservative although the boxes are tested in float.
+ *
+ * The error bound. Let u = 2^-24, B_i the largest |x_i| within `bounds`, n the exact unit normal, o = origin - eye,
+ * d = n·o, S = sum |n_i| B_i. A point x of a box has exactly n·x + d >= 0 if it is inside. The test evaluates
+ * ((nx*x + ny*y) + nz*z) + d in float with rounded n and d:
+ *
+ *   rounding n to float        u S              (relative, component by component)
+ *   the products and sums      4 u S + u |d|    (a product passes at most four roundings, d one)
+ *   rounding d to float        u |d|
+ *   n and d in double          2^-48 (|B| + |o|) (some ten roundings of 2^-53 on terms below |B|_1 + |o|_1; it also
+ *                                                covers underflow, as |n_i| < 2^-126 times B_i)
+ *
+ * So d is raised by (5 u S + 2 u |d|)(1 + a little) + 2^-48 (|B| + |o|): below 7 u S + 4 u |d| + 2^-48 (...). Rounding
+ * is monotone and a box's farthest corner is taken for each plane, so its value is at least that of any point in it. */
+#include <enfilade/geom.h>
+#include <enfilade/tolerances.h>
+
+#include <math.h>
+
+/* Beyond this a float sum might overflow on its way; the plane is dropped (it keeps everything). */
+#define LARGEST_SUM 0x1p120
+
+/* What is common to all planes of a pyramid. */
+typedef struct Frame {
+    EnfVec3 offset;     /* origin - eye */
+    EnfVec3 reach;      /* largest absolute coordinates within bounds */
+    double fixed_error; /* 2^-48 (|B|_1 + |o|_1) */
+} Frame;
+
+static double largest(float a, float b) {
+    return fmax(fabs((double)a), fabs((double)b));
+}
+
+static Frame make_frame(const EnfCamera *camera, EnfVec3 origin_ws, EnfBox3f bounds) {
+    Frame f;
+    f.offset = enf_sub(origin_ws, camera->eye_ws);
+    f.reach = enf_v3(largest(bounds.min.x, bounds.max.x), largest(bounds.min.y, bounds.max.y),
+                     largest(bounds.min.z, bounds.max.z));
+    f.fixed_error = 0x1p-48 * (f.reach.x + f.reach.y + f.reach.z + fabs(f.offset.x) + fabs(f.offset.y) + fabs(f.offset.z));
+    return f;
+}
+
+/* Adds the plane whose inside is where a (p·right) + b (p·up) + c (p·forward) >= 0. */
+static void add_plane(EnfPyramid *out, const EnfCamera *camera, const Frame *f, double a, double b, double c) {
+    double scale = 1.0 / sqrt(a * a + b * b + c * c);
+    EnfVec3 n = enf_add(enf_add(enf_scale(camera->right, a * scale), enf_scale(camera->up, b * scale)),
+                        enf_scale(camera->forward, c * scale));
+    double d = enf_dot(n, f->offset);
+    double sum = fabs(n.x) * f->reach.x + fabs(n.y) * f->reach.y + fabs(n.z) * f->reach.z;
+    double raised = d + (7.0 * 0x1p-24 * sum + 4.0 * 0x1p-24 * fabs(d) + f->fixed_error);
+    if (!(sum + fabs(raised) < LARGEST_SUM)) {
+        n = enf_v3(0.0, 0.0, 0.0); /* not finite: keeps every box */
+        raised = 0.0;
+    }
+    uint32_t i = out->count++;
+    out->nx[i] = (float)n.x;
+    out->ny[i] = (float)n.y;
+    out->nz[i] = (float)n.z;
+    out->d[i] = (float)raised;
+}
+
+/* A point is seen at X = cx + (p·right / p·forward) cx / tan_x, cx the middle of the picture, and likewise Y. */
+static void add_edges(EnfPyramid *out, const EnfCamera *camera, const Frame *f, const EnfWindowPolygon *p) {
+    double cx = 0.5 * ENF_WINDOW_STEPS * (double)camera->width_px, cy = 0.5 * ENF_WINDOW_STEPS * (double)camera->height_px;
+    double sx = cx / camera->tan_x, sy = cy / camera->tan_y;
+    for (uint32_t i = 0; i < p->count; i++) {
+        uint32_t j = i + 1 < p->count ? i + 1 : 0;
+        double dx = (double)p->x[j] - (double)p->x[i], dy = (double)p->y[j] - (double)p->y[i];
+        if (dx == 0.0 || dy == 0.0) {
+            continue; /* it lies on a side of the bounding box, which is a plane already */
+        }
+        /* Left of the edge: dx (Y - ay) - dy (X - ax) >= 0, times the depth. The products below are exact. */
+        double depth = dy * ((double)p->x[i] - cx) - dx * ((double)p->y[i] - cy);
+        add_plane(out, camera, f, -dy * sx, dx * sy, depth);
+    }
+}
+
+void enf_pyramid(const EnfCamera *camera, EnfWindow window, const EnfWindowPolygon *polygon, EnfVec3 origin_ws, EnfBox3f bounds,
+                 EnfPyramid *out) {
+    Frame f = make_frame(camera, origin_ws, bounds);
+    double cx = 0.5 * ENF_WINDOW_STEPS * (double)camera->width_px, cy = 0.5 * ENF_WINDOW_STEPS * (double)camera->height_px;
+    double kx = camera->tan_x / cx, ky = camera->tan_y / cy;
+    out->count = 0;
+    add_plane(out, camera, &f, 1.0, 0.0, -((double)window.x0 - cx) * kx);
+    add_plane(out, camera, &f, -1.0, 0.0, ((double)window.x1 - cx) * kx);
+    add_plane(out, camera, &f, 0.0, 1.0, -((double)window.y0 - cy) * ky);
+    add_plane(out, camera, &f, 0.0, -1.0, ((double)window.y1 - cy) * ky);
+    add_plane(out, camera, &f, 0.0, 0.0, 1.0);
+    if (polygon) {
+        add_edges(out, camera, &f, polygon);
+    }
+}
+
+bool enf_pyramid_box(const EnfPyramid *pyramid, EnfBox3f box) {
+    for (uint32_t i = 0; i < pyramid->count; i++) {
+        float nx = pyramid->nx[i], ny = pyramid->ny[i], nz = pyramid->nz[i];
+        float x = nx >= 0.0f ? box.max.x : box.min.x;
+        float y = ny >= 0.0f ? box.max.y : box.min.y;
+        float z = nz >= 0.0f ? box.max.z : box.min.z;
+        if (((nx * x + ny * y) + nz * z) + pyramid->d[i] < 0.0f) {
+            return false; /* not `!(>= 0)`: what is not a number is kept */
+        }
+    }
+    return true;
+}
