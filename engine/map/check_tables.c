@@ -64,7 +64,8 @@ static EnfResult check_lights(const EnfMapCheck *check) {
         if (light->range < 0.0f) {
             return ENF_MAP_BAD(check, lights, i, range, ENF_ERROR_RANGE, "%g is negative", (double)light->range);
         }
-        if (light->outer_cos < -1.0f || light->outer_cos > light->inner_cos || light->inner_cos > 1.0f) {
+        if (light->kind == ENF_LIGHT_SPOT &&
+            (light->outer_cos < -1.0f || light->outer_cos > light->inner_cos || light->inner_cos > 1.0f)) {
             return ENF_MAP_BAD(check, lights, i, outer_cos, ENF_ERROR_RANGE,
                                "-1 <= outer_cos %g <= inner_cos %g <= 1 does not hold", (double)light->outer_cos,
                                (double)light->inner_cos);

@@ -1,0 +1,50 @@
+/* Small maps made by code: polygons and portals in, a checked EnfMap out. For tests, benchmarks and pictures; the real thing is
+ * tools/compile. Coordinates are world metres and should be multiples of 2^-12. */
+#ifndef ENF_SCENES_MAKER_H
+#define ENF_SCENES_MAKER_H
+
+#include <enfilade/map.h>
+
+typedef struct EnfMaker EnfMaker;
+
+EnfMaker *enf_maker_create(void); /**< NULL without memory. Material 0, "plaster", is there already. */
+void enf_maker_destroy(EnfMaker *maker);
+
+/** Offset of `text`, added once. */
+uint32_t enf_maker_string(EnfMaker *maker, const char *text);
+/** Zeroed but for name, colour and an untransformed texture; the caller may fill in more until the next call. */
+EnfMaterial *enf_maker_material(EnfMaker *maker, const char *name, float r, float g, float b);
+/** Likewise; its origin is rounded to the grid of origins. Returns the index through `cell`. */
+EnfCell *enf_maker_cell(EnfMaker *maker, const char *name, EnfVec3 origin_ws, uint32_t *cell);
+/** A new group: polygons of one group, cell and material make one cluster (or several of 128 triangles). */
+uint32_t enf_maker_group(EnfMaker *maker);
+/** A convex polygon, front by the right-hand rule, as a fan. */
+void enf_maker_polygon(EnfMaker *maker, uint32_t cell, uint32_t material, const EnfVec3 *points, uint32_t count);
+/** The six sides of a box; `inward`: a room, else a thing in it. */
+void enf_maker_box(EnfMaker *maker, uint32_t cell, uint32_t material, EnfBox3 box, bool inward);
+/** The current group, all of one cell and material, is also listed in the tree of `cell`. */
+void enf_maker_reach(EnfMaker *maker, uint32_t cell);
+/** A pair of half-portals; front out of `source`. Returns the number of the pair: enf_maker_half gives the map's indices. */
+uint32_t enf_maker_portal(EnfMaker *maker, const char *name, uint32_t source, uint32_t target, const EnfVec3 *points,
+                          uint32_t count, uint32_t flags);
+/** A half-portal alone, with a transform (`p_target = transform p_source`). A reflection gets its flag; a pair is two calls
+ *  and `twin` the number of the other, or ENF_NONE. Returns its number, of the same count as enf_maker_portal's. */
+uint32_t enf_maker_teleport(EnfMaker *maker, uint32_t source, uint32_t target, const EnfVec3 *points, uint32_t count,
+                            const EnfAffine *transform, uint32_t twin);
+/** A point light that reaches its own cell alone. */
+void enf_maker_light(EnfMaker *maker, uint32_t cell, EnfVec3 position_ws, float r, float g, float b, float range);
+/** The half-space n·p <= n·point of the bound of the newest cell. */
+void enf_maker_bound(EnfMaker *maker, EnfVec3 normal, EnfVec3 point_ws);
+/** Raw records, for what no test needs more than once: entities, paths … go straight in. */
+uint32_t enf_maker_entity(EnfMaker *maker, const EnfEntity *entity);
+uint32_t enf_maker_path(EnfMaker *maker, const EnfPath *path, const float *floats, uint32_t float_count);
+uint32_t enf_maker_image(EnfMaker *maker, uint32_t width, uint32_t height, const uint8_t *rgba);
+uint32_t enf_maker_texture(EnfMaker *maker, uint32_t image);
+uint32_t enf_maker_camera(EnfMaker *maker, const EnfMapCamera *camera);
+
+/** The map, owned by the maker; NULL with `error` if it does not pass enf_map_check. Nothing may be added after it. */
+const EnfMap *enf_maker_finish(EnfMaker *maker, EnfError *error);
+/** The map's half-portal for a number that enf_maker_portal (`way` 0: as given, 1: its twin) or enf_maker_teleport gave. */
+uint32_t enf_maker_half(const EnfMaker *maker, uint32_t number, uint32_t way);
+
+#endif
