@@ -7,3 +7,4 @@
  * Write the file first, then its line: a line without a file stops CMake. */
 ENF_SUITE(harness, unit, none)
 ENF_SUITE(draw, unit, core)
+ENF_SUITE(vis, property, core)
