@@ -8,3 +8,4 @@
 ENF_SUITE(harness, unit, none)
 ENF_SUITE(draw, unit, core)
 ENF_SUITE(vis, property, core)
+ENF_SUITE(base, unit, core)
