@@ -81,4 +81,35 @@ EnfResult enf_map_check_tables(const EnfMapCheck *check);   /* images, textures,
 EnfResult enf_map_check_cells(const EnfMapCheck *check);    /* cells, portals, transforms, bounds */
 EnfResult enf_map_check_geometry(const EnfMapCheck *check); /* clusters, indices, trees */
 
+/* ---- rays (ray.c) ----------------------------------------------------------------------------------------------- */
+
+/** A ray for watertight tests against many triangles: Woop, Benthin & Wald 2013. */
+typedef struct EnfMapRay {
+    EnfVec3 direction;
+    int kx, ky, kz; /* kz: the axis along which the direction is longest */
+    double sx, sy, sz;
+} EnfMapRay;
+
+/** False for a zero or non-finite direction. */
+bool enf_map_ray_make(EnfMapRay *ray, EnfVec3 direction);
+/** The parameter t >= 0 at which the ray from 0 meets triangle `abc` (relative to its start), edges and corners included; false if
+ *  it does not, or lies in its plane. */
+bool enf_map_ray_triangle(const EnfMapRay *ray, EnfVec3 a, EnfVec3 b, EnfVec3 c, double *t);
+/** Corner `k` of triangle `triangle` of a cluster, relative to the home cell's origin. */
+EnfVec3 enf_map_corner(const EnfMap *map, const EnfCluster *cluster, uint32_t triangle, uint32_t k);
+/** The nearest hit among the clusters that `wanted` accepts (NULL: all). */
+typedef bool EnfMapWanted(const EnfMap *map, uint32_t cluster, void *user);
+bool enf_map_ray_among(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 direction, double t_max, EnfRayHit *hit,
+                       EnfMapWanted *wanted, void *user);
+
+static inline EnfVec3 enf_map_origin(const EnfMap *map, uint32_t cell) {
+    const double *o = map->cells[cell].origin;
+    return enf_v3(o[0], o[1], o[2]);
+}
+
+/** Vertex `k` of a half-portal, relative to its source's origin. */
+static inline EnfVec3 enf_map_portal_vertex(const EnfMap *map, uint32_t portal, uint32_t k) {
+    return enf_v3_from_f(map->portal_vertices[map->portals[portal].vertex_first + k]);
+}
+
 #endif

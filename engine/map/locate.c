@@ -1,0 +1,194 @@
+/* A point → the cell that it lies in, for spawn and teleport (DESIGN §3; a walking eye is tracked: track.c).
+ *
+ * A `-bound` decides by its planes. Else a few rays ask what they meet first: the front of a shell or the opening of a portal
+ * from within is "inside", their backs "outside"; a leak misleads some rays but not most. */
+#include "map/map_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+/* No axis, no diagonal, no two opposite: a ray along a wall or through an edge decides nothing well. An odd number. */
+static const EnfVec3 probes[] = {{0.57735, 0.71934, 0.38621},
+                                 {-0.82311, 0.31172, 0.47443},
+                                 {0.27413, -0.63177, 0.72514},
+                                 {-0.41273, -0.54318, -0.73131},
+                                 {0.68713, 0.19136, -0.70092}};
+enum { PROBE_COUNT = sizeof probes / sizeof *probes, CANDIDATES_MAX = 64 };
+
+/* ---- one cell --------------------------------------------------------------------------------------------------- */
+
+/* What counts as the cell's shell. Decals, curtains and leaves are no walls, so a surface seen from both sides is left out; but
+ * where most of the cell is double-sided (Blender's default), its winding is all there is to go by. */
+typedef struct Shell {
+    uint32_t cell;
+    bool double_sided;
+} Shell;
+
+static double cluster_area(const EnfMap *map, const EnfCluster *cluster) {
+    double area = 0.0;
+    for (uint32_t i = 0; i < cluster->index_count / 3; i++) {
+        EnfVec3 a = enf_map_corner(map, cluster, i, 0);
+        EnfVec3 ab = enf_sub(enf_map_corner(map, cluster, i, 1), a), ac = enf_sub(enf_map_corner(map, cluster, i, 2), a);
+        area += enf_length(enf_cross(ab, ac));
+    }
+    return area;
+}
+
+static Shell shell_of(const EnfMap *map, uint32_t cell) {
+    double single = 0.0, both = 0.0;
+    const EnfCell *c = &map->cells[cell];
+    for (uint32_t i = c->cluster_first; i < c->cluster_first + c->cluster_count; i++) {
+        const EnfMaterial *material = &map->materials[map->clusters[i].material];
+        if (material->alpha_mode == ENF_ALPHA_OPAQUE) {
+            *(material->flags & ENF_MATERIAL_DOUBLE_SIDED ? &both : &single) += cluster_area(map, &map->clusters[i]);
+        }
+    }
+    return (Shell){cell, both > single};
+}
+
+static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
+    const Shell *shell = user;
+    const EnfCluster *cluster = &map->clusters[index];
+    const EnfMaterial *material = &map->materials[cluster->material];
+    return cluster->cell == shell->cell && material->alpha_mode == ENF_ALPHA_OPAQUE &&
+           (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED));
+}
+
+/* The nearest opening of the cell before *t: from within, a ray leaves by it along its normal. */
+static void probe_portals(const EnfMap *map, uint32_t cell, EnfVec3 local, EnfVec3 direction, double *t, bool *inside) {
+    const EnfCell *c = &map->cells[cell];
+    EnfMapRay ray;
+    enf_map_ray_make(&ray, direction);
+    for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+        for (uint32_t i = 2; i < map->portals[p].vertex_count; i++) {
+            EnfVec3 v0 = enf_sub(enf_map_portal_vertex(map, p, 0), local);
+            EnfVec3 v1 = enf_sub(enf_map_portal_vertex(map, p, i - 1), local);
+            EnfVec3 v2 = enf_sub(enf_map_portal_vertex(map, p, i), local);
+            double at;
+            if (enf_map_ray_triangle(&ray, v0, v1, v2, &at) && at < *t) {
+                *t = at;
+                *inside = enf_dot(enf_cross(enf_sub(v1, v0), enf_sub(v2, v0)), direction) > 0.0;
+            }
+        }
+    }
+}
+
+/* What the ray meets first says inside; nothing met is outside. */
+static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 direction) {
+    EnfRayHit hit;
+    double t = HUGE_VAL;
+    bool inside = false;
+    if (enf_map_ray_among(map, shell->cell, p_ws, direction, HUGE_VAL, &hit, shell_wanted, shell)) {
+        t = hit.t;
+        inside = hit.front;
+    }
+    probe_portals(map, shell->cell, enf_sub(p_ws, enf_map_origin(map, shell->cell)), direction, &t, &inside);
+    return inside;
+}
+
+static bool within_bounds(const EnfCell *cell, EnfVec3 local) {
+    return local.x >= (double)cell->min[0] && local.x <= (double)cell->max[0] && local.y >= (double)cell->min[1] &&
+           local.y <= (double)cell->max[1] && local.z >= (double)cell->min[2] && local.z <= (double)cell->max[2];
+}
+
+bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
+    if (cell >= map->cells_count || map->cells[cell].flags & ENF_CELL_OUTSIDE || !enf_v3_finite(p_ws)) {
+        return false;
+    }
+    const EnfCell *c = &map->cells[cell];
+    EnfVec3 local = enf_sub(p_ws, enf_map_origin(map, cell));
+    for (uint32_t i = c->bound_first; i < c->bound_first + c->bound_count; i++) {
+        const EnfPlane4f *plane = &map->bound_planes[i];
+        EnfVec3 n = enf_v3((double)plane->n[0], (double)plane->n[1], (double)plane->n[2]);
+        if (enf_dot(n, local) + (double)plane->d > 0.0) {
+            return false;
+        }
+    }
+    if (c->bound_count) {
+        return true;
+    }
+    if (!within_bounds(c, local)) {
+        return false;
+    }
+    Shell shell = shell_of(map, cell);
+    int votes = 0;
+    for (int i = 0; i < PROBE_COUNT; i++) {
+        votes += probe(map, &shell, p_ws, probes[i]);
+    }
+    return votes > PROBE_COUNT / 2;
+}
+
+/* ---- all cells -------------------------------------------------------------------------------------------------- */
+
+static double cell_volume(const EnfCell *cell) {
+    double volume = 1.0;
+    for (int axis = 0; axis < 3; axis++) {
+        volume *= (double)cell->max[axis] - (double)cell->min[axis];
+    }
+    return volume;
+}
+
+/* Does `a` win over `b` where both contain the point? */
+static bool wins(const EnfMap *map, uint32_t a, uint32_t b) {
+    if (b == ENF_NONE) {
+        return true;
+    }
+    const EnfCell *x = &map->cells[a], *y = &map->cells[b];
+    if (x->priority != y->priority) {
+        return x->priority > y->priority;
+    }
+    double u = cell_volume(x), v = cell_volume(y);
+    return u != v ? u < v : a < b;
+}
+
+uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
+    if (!enf_v3_finite(p_ws)) {
+        return ENF_NONE;
+    }
+    EnfKdTree tree = {map->cell_nodes, map->cell_blocks, map->cell_nodes_count, map->cell_blocks_count};
+    EnfVec3 p = enf_sub(p_ws, enf_v3(map->tree_origin[0], map->tree_origin[1], map->tree_origin[2]));
+    EnfBox3 point = {p, p};
+    uint32_t candidates[CANDIDATES_MAX];
+    uint32_t count = enf_kd_overlap(&tree, enf_box3f_outward(point), candidates, CANDIDATES_MAX);
+    const bool all = count > CANDIDATES_MAX; /* a pile of cells: ask every one */
+    uint32_t best = ENF_NONE;
+    for (uint32_t i = 0; i < (all ? map->cells_count : count); i++) {
+        uint32_t cell = all ? i : candidates[i];
+        if (wins(map, cell, best) && enf_map_cell_contains(map, cell, p_ws)) {
+            best = cell;
+        }
+    }
+    return best;
+}
+
+/* ---- by name ---------------------------------------------------------------------------------------------------- */
+
+/* The length of a name without `-room` or `_room` at its end (any case; DESIGN §6). */
+static size_t length_without_suffix(const char *name) {
+    static const char suffix[] = "room";
+    size_t length = strlen(name);
+    if (length < 5 || (name[length - 5] != '-' && name[length - 5] != '_')) {
+        return length;
+    }
+    for (size_t i = 0; i < 4; i++) {
+        if ((name[length - 4 + i] | 0x20) != suffix[i]) {
+            return length;
+        }
+    }
+    return length - 5;
+}
+
+uint32_t enf_map_find_cell(const EnfMap *map, const char *name) {
+    uint32_t by_stem = ENF_NONE;
+    for (uint32_t i = 0; i < map->cells_count; i++) {
+        const char *candidate = enf_map_string(map, map->cells[i].name);
+        if (strcmp(candidate, name) == 0) {
+            return i;
+        }
+        size_t stem = length_without_suffix(candidate);
+        if (by_stem == ENF_NONE && stem == strlen(name) && strncmp(candidate, name, stem) == 0) {
+            by_stem = i;
+        }
+    }
+    return by_stem;
+}
