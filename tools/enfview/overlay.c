@@ -1,0 +1,263 @@
+/* Makes lines and tints from a visible set. Portals are tested here once more, by the same functions as the traversal, so
+ * that those it cut can be shown, too. */
+#include "enfview/overlay.h"
+
+#include <string.h>
+
+enum { GREEN = 0x50ff50, RED = 0x4040ff, GREY = 0x808080, WHITE = 0xffffff }; /* R in the low byte */
+
+/* Lines in the world, kept relative to the observer. */
+typedef struct Lines {
+    EnfDebugVertex *vertices;
+    uint32_t count, capacity;
+    EnfVec3 eye_ws;
+    bool failed;
+} Lines;
+
+static void add_point(Lines *lines, EnfVec3 p_ws, uint32_t rgb) {
+    if (lines->count == lines->capacity) {
+        uint32_t wanted = lines->capacity ? 2 * lines->capacity : 1024;
+        EnfDebugVertex *grown = enf_realloc(NULL, lines->vertices, lines->capacity, wanted, sizeof *grown);
+        if (!grown) {
+            lines->failed = true;
+            return;
+        }
+        lines->vertices = grown;
+        lines->capacity = wanted;
+    }
+    EnfVec3f p = enf_v3f(enf_sub(p_ws, lines->eye_ws));
+    EnfDebugVertex vertex = {{p.x, p.y, p.z}, rgb | 0xff000000u};
+    lines->vertices[lines->count++] = vertex;
+}
+
+static void add_line(Lines *lines, EnfVec3 a_ws, EnfVec3 b_ws, uint32_t rgb) {
+    if (!lines->failed) {
+        add_point(lines, a_ws, rgb);
+        add_point(lines, b_ws, rgb);
+    }
+}
+
+static void add_loop(Lines *lines, const EnfVec3 *points_ws, uint32_t count, uint32_t rgb) {
+    for (uint32_t i = 0; i < count; i++) {
+        add_line(lines, points_ws[i], points_ws[(i + 1) % count], rgb);
+    }
+}
+
+static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell) {
+    const double *o = map->cells[cell].origin;
+    return enf_v3(o[0], o[1], o[2]);
+}
+
+/* ---- portals ---------------------------------------------------------------------------------------------------- */
+
+static bool passes(const Overlay *overlay, const EnfPortalState *state, const EnfVec3 *points_ws, EnfWindow window) {
+    const EnfCamera *camera = &overlay->set->cameras[0];
+    EnfVec3 eye = enf_sub(camera->eye_ws, cell_origin(&overlay->viewer->map, state->source));
+    if (!(state->flags & ENF_PORTAL_NONPLANAR) &&
+        enf_dot(state->normal, eye) + (double)state->d > (double)state->slab) {
+        return false;
+    }
+    EnfVec3 points_eye[ENF_POLYGON_MAX];
+    for (uint32_t i = 0; i < state->vertex_count; i++) {
+        points_eye[i] = enf_sub(points_ws[i], camera->eye_ws);
+    }
+    EnfWindow seen;
+    return enf_project_box(camera, points_eye, state->vertex_count, window, &seen) != ENF_PROJECT_EMPTY;
+}
+
+/* The outlines of a visit's portals: those that pass if `passed`, else the others. */
+static void add_portals(const Overlay *overlay, Lines *lines, const EnfVisit *visit, bool passed) {
+    const EnfMap *map = &overlay->viewer->map;
+    const EnfCell *cell = &map->cells[visit->cell];
+    for (uint32_t p = cell->portal_first; p < cell->portal_first + cell->portal_count; p++) {
+        const EnfPortalState *state = &overlay->viewer->portals.states[p];
+        if (state->vertex_count < 3) {
+            continue;
+        }
+        EnfVec3 points_ws[ENF_POLYGON_MAX];
+        for (uint32_t i = 0; i < state->vertex_count; i++) {
+            points_ws[i] = enf_add(enf_v3_from_f(overlay->viewer->portals.vertices[state->vertex_first + i]),
+                                   cell_origin(map, state->source));
+        }
+        bool closed = (state->flags & ENF_PORTAL_CLOSED) != 0;
+        if ((!closed && passes(overlay, state, points_ws, visit->window)) == passed) {
+            add_loop(lines, points_ws, state->vertex_count, closed ? GREY : passed ? GREEN : RED);
+        }
+    }
+}
+
+/* Green over red: a portal that passes once is passed. */
+static void add_all_portals(const Overlay *overlay, Lines *lines) {
+    for (int passed = 0; passed < 2; passed++) {
+        for (uint32_t i = 0; i < overlay->set->visit_count; i++) {
+            if (overlay->set->visits[i].space == 0) {
+                add_portals(overlay, lines, &overlay->set->visits[i], passed != 0);
+            }
+        }
+    }
+}
+
+/* ---- windows ---------------------------------------------------------------------------------------------------- */
+
+/* The point one metre in front of the culling eye that a place on its screen shows (steps of a window). */
+static EnfVec3 on_screen(const EnfCamera *camera, int32_t x, int32_t y) {
+    double u = ((double)x / (8.0 * (double)camera->width_px) - 1.0) * camera->tan_x;
+    double v = ((double)y / (8.0 * (double)camera->height_px) - 1.0) * camera->tan_y;
+    EnfVec3 across = enf_add(enf_scale(camera->right, u), enf_scale(camera->up, v));
+    return enf_add(camera->eye_ws, enf_add(camera->forward, across));
+}
+
+static void add_window(const Overlay *overlay, Lines *lines, const EnfVisit *visit) {
+    const EnfCamera *camera = &overlay->set->cameras[0];
+    EnfWindowPolygon polygon = visit->polygon == ENF_NONE ? enf_window_polygon_from_box(visit->window)
+                                                          : overlay->set->polygons[visit->polygon];
+    EnfVec3 points_ws[ENF_WINDOW_POLYGON_MAX];
+    for (uint32_t i = 0; i < polygon.count; i++) {
+        points_ws[i] = on_screen(camera, polygon.x[i], polygon.y[i]);
+    }
+    add_loop(lines, points_ws, polygon.count, overlay_color(visit->cell));
+}
+
+/* The pyramid of a frozen eye, three metres long. */
+static void add_pyramid(const Overlay *overlay, Lines *lines) {
+    const EnfCamera *camera = &overlay->set->cameras[0];
+    EnfWindowPolygon full = enf_window_polygon_from_box(enf_window_full(camera));
+    EnfVec3 points_ws[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        EnfVec3 ray = enf_sub(on_screen(camera, full.x[i], full.y[i]), camera->eye_ws);
+        points_ws[i] = enf_add(camera->eye_ws, enf_scale(ray, 3.0));
+        add_line(lines, camera->eye_ws, points_ws[i], WHITE);
+    }
+    add_loop(lines, points_ws, 4, WHITE);
+}
+
+/* ---- kd-trees --------------------------------------------------------------------------------------------------- */
+
+static void add_box(Lines *lines, const EnfKdNode *node, EnfVec3 origin, uint32_t rgb) {
+    EnfVec3 corners[8];
+    for (int i = 0; i < 8; i++) {
+        EnfVec3 corner = {(double)(i & 1 ? node->max[0] : node->min[0]), (double)(i & 2 ? node->max[1] : node->min[1]),
+                          (double)(i & 4 ? node->max[2] : node->min[2])};
+        corners[i] = enf_add(corner, origin);
+    }
+    for (int i = 0; i < 8; i++) {
+        for (int axis = 1; axis < 8; axis <<= 1) {
+            if (!(i & axis)) {
+                add_line(lines, corners[i], corners[i | axis], rgb);
+            }
+        }
+    }
+}
+
+/* Leaves in the colour of their cell; the nodes above them would hide everything. */
+static void add_tree(const Overlay *overlay, Lines *lines, uint32_t cell) {
+    EnfKdTree tree = enf_map_cell_tree(&overlay->viewer->map, cell);
+    for (uint32_t i = 0; i < tree.node_count; i++) {
+        if (tree.nodes[i].block_count) {
+            add_box(lines, &tree.nodes[i], cell_origin(&overlay->viewer->map, cell), overlay_color(cell));
+        }
+    }
+}
+
+/* ---- all lines -------------------------------------------------------------------------------------------------- */
+
+static void flush(const Overlay *overlay, Lines *lines, bool through) {
+    enf_gl_draw_lines(overlay->viewer->gl, overlay->clip_from_eye, lines->vertices, lines->count, through);
+    lines->count = 0;
+}
+
+EnfResult overlay_draw_lines(const Overlay *overlay, EnfError *error) {
+    const Options *options = overlay->viewer->options;
+    Lines lines = {.eye_ws = overlay->observer.eye_ws};
+    if (options->debug & DEBUG_KD) {
+        for (uint32_t i = 0; i < overlay->set->cell_count; i++) {
+            add_tree(overlay, &lines, overlay->set->cells[i]);
+        }
+        flush(overlay, &lines, false);
+    }
+    if (options->debug & DEBUG_PORTALS) {
+        add_all_portals(overlay, &lines);
+    }
+    for (uint32_t i = 0; options->debug & DEBUG_WINDOWS && i < overlay->set->visit_count; i++) {
+        if (overlay->set->visits[i].space == 0) {
+            add_window(overlay, &lines, &overlay->set->visits[i]);
+        }
+    }
+    if (options->has_freeze) {
+        add_pyramid(overlay, &lines);
+    }
+    flush(overlay, &lines, true);
+    enf_free(NULL, lines.vertices, lines.capacity, sizeof *lines.vertices);
+    return lines.failed ? enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for lines") : ENF_OK;
+}
+
+/* ---- culled clusters -------------------------------------------------------------------------------------------- */
+
+EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error) {
+    const EnfMap *map = &overlay->viewer->map;
+    EnfVisEntry *entries = enf_alloc(NULL, (size_t)map->clusters_count + 1, sizeof *entries);
+    if (!entries) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for culled clusters");
+    }
+    EnfVisSet culled = {.entries = entries, .cameras = &overlay->observer, .space_count = 1};
+    uint32_t next = 0; /* entries ascend: a merge of all numbers with those seen */
+    for (uint32_t c = 0; c < map->clusters_count; c++) {
+        while (next < overlay->set->entry_count && overlay->set->entries[next].space == 0 &&
+               overlay->set->entries[next].cluster < c) {
+            next++;
+        }
+        bool seen = next < overlay->set->entry_count && overlay->set->entries[next].space == 0 &&
+                    overlay->set->entries[next].cluster == c;
+        if (!seen) {
+            EnfVisEntry entry = {c, 0, 0};
+            entries[culled.entry_count++] = entry;
+        }
+    }
+    const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR);
+    enf_gl_draw_wireframe(overlay->viewer->gl, list, 0xff909090u);
+    enf_free(NULL, entries, (size_t)map->clusters_count + 1, sizeof *entries);
+    return ENF_OK;
+}
+
+/* ---- colours ---------------------------------------------------------------------------------------------------- */
+
+uint32_t overlay_color(uint32_t number) {
+    /* Hues by the golden angle, in 1/1536 of a turn; saturated enough to tell apart, bright enough for lines. */
+    uint32_t hue = (number * 949u) % 1536u, rise = hue % 256u, fall = 255u - rise;
+    static const uint32_t order[6][3] = {{0, 1, 2}, {3, 0, 2}, {2, 0, 1}, {2, 3, 0}, {1, 2, 0}, {0, 2, 3}};
+    const uint32_t levels[4] = {255, rise, 0, fall};
+    const uint32_t *pick = order[hue / 256u];
+    uint32_t shade = 208u + number * 29u % 48u, rgb = 0;
+    for (int i = 0; i < 3; i++) {
+        uint32_t level = (64u + levels[pick[i]] * 191u / 255u) * shade / 256u;
+        rgb |= level << (8 * i);
+    }
+    return rgb;
+}
+
+static uint32_t take_id(const uint8_t *pixel) {
+    return (uint32_t)pixel[0] | (uint32_t)pixel[1] << 8 | (uint32_t)pixel[2] << 16 | (uint32_t)pixel[3] << 24;
+}
+
+void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, uint8_t *rgba, size_t size) {
+    for (size_t i = 0; i < size; i += 4) {
+        uint32_t id = take_id(ids + i);
+        if (id) {
+            uint32_t rgb = overlay_color(map->clusters[id - 1].cell);
+            for (int k = 0; k < 3; k++) {
+                rgba[i + (size_t)k] = (uint8_t)((rgba[i + (size_t)k] + (rgb >> (8 * k) & 255u)) / 2u);
+            }
+        }
+    }
+}
+
+void overlay_color_ids(uint8_t *ids, size_t size) {
+    for (size_t i = 0; i < size; i += 4) {
+        uint32_t id = take_id(ids + i);
+        uint32_t rgb = id ? overlay_color(id - 1) : 0;
+        for (int k = 0; k < 3; k++) {
+            ids[i + (size_t)k] = (uint8_t)(rgb >> (8 * k) & 255u);
+        }
+        ids[i + 3] = 255;
+    }
+}
