@@ -10,7 +10,7 @@
 #include <math.h>
 
 /* pi/2 in parts of 33, 33, 33 and 53 bits: k times a part is exact for |k| < 2^20, so |x| <= 2^20 is reduced without
- * loss even where x lies within 2^-60 of a multiple of pi/2 (the closest double does not come nearer). */
+ * loss even where x lies close to a multiple of pi/2 (the closest double, 0x1.6c6cbc45dc8dep+5, comes within 2^-60.5). */
 #define HALF_PI_1 0x1.921fb54400000p+0
 #define HALF_PI_2 0x1.0b4611a600000p-34
 #define HALF_PI_3 0x1.3198a2e000000p-69
@@ -24,8 +24,7 @@ typedef struct Pair {
 } Pair;
 
 /* Knuth's two-sum: high + low == a + b exactly. */
-static Pair exact_sum(double a, double b)
-{
+static Pair exact_sum(double a, double b) {
     double sum = a + b;
     double from_b = sum - a;
     Pair pair = {sum, (a - (sum - from_b)) + (b - from_b)};
@@ -33,8 +32,7 @@ static Pair exact_sum(double a, double b)
 }
 
 /* x - k pi/2 with |result| <= pi/4, and *quadrant = k mod 4. */
-static Pair reduce(double x, unsigned *quadrant)
-{
+static Pair reduce(double x, unsigned *quadrant) {
     if (fabs(x) > LARGEST_ANGLE) {
         x = fmod(x, 2.0 * ENF_PI); /* outside the promised range: still a sane angle, and fmod is exact everywhere */
     }
@@ -49,8 +47,7 @@ static Pair reduce(double x, unsigned *quadrant)
 }
 
 /* sin(r) for |r| <= pi/4. */
-static Pair sin_kernel(Pair r)
-{
+static Pair sin_kernel(Pair r) {
     double x = r.high, t = x * x;
     double p = 0x1.71de379689090p-19 + t * (-0x1.ae600b01a40ccp-26 + t * 0x1.5e0b1995f429ap-33);
     p = -0x1.5555555555555p-3 + t * (0x1.1111111110bb2p-7 + t * (-0x1.a01a019e83aa2p-13 + t * p));
@@ -59,8 +56,7 @@ static Pair sin_kernel(Pair r)
 }
 
 /* cos(r) for |r| <= pi/4. */
-static Pair cos_kernel(Pair r)
-{
+static Pair cos_kernel(Pair r) {
     double x = r.high, t = x * x;
     double p = -0x1.27e4fa17d9864p-22 + t * (0x1.1eeb68e8b2372p-29 + t * -0x1.907da304ce77bp-37);
     p = 0x1.5555555555555p-5 + t * (-0x1.6c16c16c16967p-10 + t * (0x1.a01a019f4eafap-16 + t * p));
@@ -68,14 +64,12 @@ static Pair cos_kernel(Pair r)
     return exact_sum(head.high, head.low + (t * t * p - x * r.low));
 }
 
-static double rounded(Pair a)
-{
+static double rounded(Pair a) {
     return a.high + a.low;
 }
 
 /* sin(x) after `quarter_turns` more: 0 for the sine, 1 for the cosine. */
-static double sin_turned(double x, unsigned quarter_turns)
-{
+static double sin_turned(double x, unsigned quarter_turns) {
     unsigned quadrant;
     Pair r = reduce(x, &quadrant);
     quadrant = (quadrant + quarter_turns) & 3u;
@@ -86,21 +80,18 @@ static double sin_turned(double x, unsigned quarter_turns)
 /* Below this, sin x and tan x round to x: the next term, x³/3, is under a quarter of an ulp. */
 #define TINY_ANGLE 0x1p-27
 
-double enf_sin(double radians)
-{
+double enf_sin(double radians) {
     if (!isfinite(radians)) {
         return (double)NAN;
     }
     return fabs(radians) < TINY_ANGLE ? radians : sin_turned(radians, 0);
 }
 
-double enf_cos(double radians)
-{
+double enf_cos(double radians) {
     return isfinite(radians) ? sin_turned(radians, 1) : (double)NAN;
 }
 
-double enf_tan(double radians)
-{
+double enf_tan(double radians) {
     if (!isfinite(radians)) {
         return (double)NAN;
     }
@@ -129,8 +120,7 @@ static const Pair quarter_pi = {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55};
 static const Pair atan_half = {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56};
 
 /* (atan t - t) / t³ in s = t², |t| <= 7/16. */
-static double atan_tail(double s)
-{
+static double atan_tail(double s) {
     double p = -0x1.9c616e7e61a95p-5 + s * (0x1.35dd3ba3a06adp-5 + s * -0x1.1f7e7048b0a6fp-6);
     p = 0x1.3b1161c0261b4p-4 + s * (-0x1.10ed20cc03917p-4 + s * (0x1.df0bad09fa62cp-5 + s * p));
     p = -0x1.24924923b09bfp-3 + s * (0x1.c71c71366bfc2p-4 + s * (-0x1.745cff64fb1e8p-4 + s * p));
@@ -139,8 +129,7 @@ static double atan_tail(double s)
 
 /* base + sign * atan(y / x) for 0 <= y <= x, 0 < x. atan(y/x) = atan c + atan((y - cx) / (x + cy)) with c of 0, 1/2 or
  * 1 keeps |t| <= 7/16; the difference y - cx is exact there, for its two sides are within a factor of two. */
-static double atan_octant(double y, double x, Pair base, double sign)
-{
+static double atan_octant(double y, double x, Pair base, double sign) {
     double ratio = y / x, t = ratio;
     Pair centre = zero;
     if (ratio >= 0.6875) {
@@ -157,16 +146,14 @@ static double atan_octant(double y, double x, Pair base, double sign)
 }
 
 /* Both arguments zero, or one infinite: the limits of IEEE 754-2019 §9.2.1. `y` and `x` are absolute values. */
-static double atan_limit(double y, double x, bool x_negative)
-{
+static double atan_limit(double y, double x, bool x_negative) {
     if (isinf(y)) {
         return isinf(x) ? (x_negative ? 3.0 * quarter_pi.high : quarter_pi.high) : half_pi.high;
     }
     return x_negative ? pi.high : 0.0;
 }
 
-double enf_atan2(double y, double x)
-{
+double enf_atan2(double y, double x) {
     if (isnan(x) || isnan(y)) {
         return (double)NAN;
     }
