@@ -85,7 +85,8 @@ static EnfResult resize(EnfFile *file, size_t *capacity, size_t wanted, EnfError
 static EnfResult read_to_end(EnfFile *file, int fd, size_t *capacity, size_t max_size, EnfError *error) {
     for (;;) {
         size_t got;
-        if (!read_up_to(fd, file->data + file->size, *capacity - file->size, &got)) {
+        uint8_t *end = file->data ? file->data + file->size : NULL; /* NULL + 0 is undefined too */
+        if (!read_up_to(fd, end, *capacity - file->size, &got)) {
             return system_error(error, "cannot read", "");
         }
         file->size += got;

@@ -178,7 +178,7 @@ static void blended_clusters_come_last_and_back_to_front(void **state) {
     assert_int_equal(enf_draw_create(&draw, &fixture->map, NULL, NULL), ENF_OK);
     see(fixture, &rng, 1);
     const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02);
-    double last = INFINITY;
+    double last = (double)INFINITY;
     uint32_t material = 0;
     for (uint32_t b = 0; b < list->batch_count; b++) {
         const EnfDrawBatch *batch = &list->batches[b];
