@@ -24,11 +24,13 @@ static inline bool enf_array_reserve(void *pointer, uint32_t *capacity, uint64_t
     if (needed <= *capacity) {
         return true;
     }
+    const uint64_t most = (uint64_t)1 << 31;
     uint64_t wanted = needed > (uint64_t)*capacity * 2 ? needed : (uint64_t)*capacity * 2;
     wanted = wanted < 16 ? 16 : wanted;
+    wanted = wanted > most && needed <= most ? most : wanted;
     void *block;
     memcpy(&block, pointer, sizeof block);
-    void *grown = wanted <= (uint64_t)1 << 31 ? realloc(block, (size_t)wanted * size) : NULL;
+    void *grown = wanted <= most ? realloc(block, (size_t)wanted * size) : NULL;
     if (!grown) {
         return false;
     }

@@ -36,4 +36,9 @@
 /** Windows are fixed point with this many steps a pixel. */
 #define ENF_WINDOW_STEPS 16
 
+/** Sine of the angle by which the window of a light may be wider than the openings it comes through, and below which an edge of
+ *  it has no plane of its own: far above the rounding of doubles (2^-50), far below what lighting shows (a millimetre at a
+ *  kilometre). Lights only, never visibility; it errs towards more light. Pinned by tests/unit/test_lights. */
+#define ENF_TOL_LIGHT 0x1p-20
+
 #endif
