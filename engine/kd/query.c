@@ -15,21 +15,26 @@ typedef struct Found {
     uint32_t *out, capacity, count;
 } Found;
 
-static inline void found_add(Found *found, uint32_t item) {
-    if (found->count < found->capacity) {
-        found->out[found->count] = item;
-    }
-    found->count++;
-}
-
-/* The lanes of a mask, in order, without the unused ones. */
+/* The lanes of a mask, in order; all of them are in use. */
 static inline void found_lanes(Found *found, const EnfKdBlock *block, uint32_t mask) {
-    for (; mask; mask &= mask - 1) {
-        uint32_t item = block->item[enf_simd_lowest(mask)];
-        if (item != ENF_NONE) {
-            found_add(found, item);
+    if (found->count < found->capacity && found->capacity - found->count >= ENF_KD_BLOCK) {
+        for (; mask; mask &= mask - 1) {
+            found->out[found->count++] = block->item[enf_simd_lowest(mask)];
         }
     }
+    for (; mask; mask &= mask - 1, found->count++) { /* near the end of the array */
+        if (found->count < found->capacity) {
+            found->out[found->count] = block->item[enf_simd_lowest(mask)];
+        }
+    }
+}
+
+static inline uint32_t used_lanes(const EnfKdBlock *block) {
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < ENF_KD_BLOCK; i++) {
+        mask |= (uint32_t)(block->item[i] != ENF_NONE) << i;
+    }
+    return mask;
 }
 
 /* ---- pyramid ---------------------------------------------------------------------------------------------------- */
@@ -45,27 +50,23 @@ static void found_subtree(Found *found, const EnfKdTree *tree, uint32_t node, ui
     for (; node < end; node++) {
         const EnfKdNode *n = &tree->nodes[node];
         for (uint32_t b = 0; b < n->block_count; b++) {
-            found_lanes(found, &tree->blocks[n->link + b], 0xff);
+            const EnfKdBlock *block = &tree->blocks[n->link + b];
+            found_lanes(found, block, used_lanes(block));
         }
     }
 }
 
-static uint32_t used_lanes(const EnfKdBlock *block) {
-    uint32_t lanes = 0;
-    for (uint32_t i = 0; i < ENF_KD_BLOCK; i++) {
-        lanes += block->item[i] != ENF_NONE;
-    }
-    return lanes;
-}
-
-static void found_leaf(Found *found, const EnfKdTree *tree, const EnfKdNode *leaf, const EnfSimd *simd,
-                       const EnfSimdPlanes *planes, uint64_t active, EnfKdCounters *counters) {
+/* Returns how many boxes were tested. */
+static uint32_t found_leaf(Found *found, const EnfKdTree *tree, const EnfKdNode *leaf, const EnfSimd *simd,
+                           const EnfSimdPlanes *planes, uint64_t active) {
+    uint32_t tested = 0;
     for (uint32_t b = 0; b < leaf->block_count; b++) {
         const EnfKdBlock *block = &tree->blocks[leaf->link + b];
         uint32_t mask = simd->boxes(planes, (const float *)(const void *)block, active);
-        counters->boxes += used_lanes(block);
-        found_lanes(found, block, mask);
+        tested += enf_simd_bits(mask >> 8);
+        found_lanes(found, block, mask & 0xff);
     }
+    return tested;
 }
 
 uint32_t enf_kd_query(const EnfKdTree *tree, const EnfPyramid *pyramid, uint32_t *out, uint32_t capacity,
@@ -88,7 +89,7 @@ uint32_t enf_kd_query(const EnfKdTree *tree, const EnfPyramid *pyramid, uint32_t
             if (!at.active) {
                 found_subtree(&found, tree, at.node, at.end);
             } else if (node->block_count) {
-                found_leaf(&found, tree, node, simd, &planes, at.active, &counted);
+                counted.boxes += found_leaf(&found, tree, node, simd, &planes, at.active);
             } else {
                 stack[depth++] = (Pending){at.active, node->link, at.end};
                 at.end = node->link;
@@ -140,7 +141,7 @@ uint32_t enf_kd_overlap(const EnfKdTree *tree, EnfBox3f box, uint32_t *out, uint
             for (uint32_t i = 0; i < ENF_KD_BLOCK; i++) {
                 mask |= (uint32_t)overlaps(block->min_x + i, block->max_x + i, ENF_KD_BLOCK, &box) << i;
             }
-            found_lanes(&found, block, mask);
+            found_lanes(&found, block, mask & used_lanes(block));
         }
     }
     return found.count;
@@ -210,7 +211,7 @@ void enf_kd_ray(const EnfKdTree *tree, EnfVec3 origin, EnfVec3 direction, double
     while (depth) {
         uint32_t at = stack[--depth];
         const EnfKdNode *node = &tree->nodes[at];
-        double t[2];
+        double t[2] = {0.0, 0.0}; /* a child that is missed has none */
         if (!ray_hits(&ray, node->min, node->max, 1, t_max, &t[0])) {
             continue; /* t_max may have shrunk since it was stacked */
         }
