@@ -41,7 +41,13 @@ static uint32_t scalar_boxes(const EnfSimdPlanes *planes, const float *boxes, ui
             mask &= ~((uint32_t)(v < 0.0f) << lane);
         }
     }
-    return mask;
+    uint32_t used = 0;
+    for (uint32_t lane = 0; lane < 8; lane++) {
+        uint32_t item;
+        memcpy(&item, boxes + ENF_SIMD_BOX8 + lane, sizeof item);
+        used |= (uint32_t)(item != ENF_NONE) << lane;
+    }
+    return (mask & used) | used << 8;
 }
 
 const EnfSimd *enf_simd_scalar(void) {
@@ -84,18 +90,24 @@ void enf_simd_automatic(void) {
 
 /* ---- planes ----------------------------------------------------------------------------------------------------- */
 
+/* `count` floats, then zeros up to a whole register. The first eight, all there are for a box window, without a loop. */
+static inline void copy_padded(float *to, const float *from, uint32_t count) {
+    uint32_t padded = (count + 7) & ~7u;
+    memcpy(to, from, 8 * sizeof *to);
+    if (count > 8) {
+        memcpy(to, from, count * sizeof *to);
+    }
+    for (uint32_t i = count; i < padded; i++) {
+        to[i] = 0.0f;
+    }
+}
+
 void enf_simd_planes(EnfSimdPlanes *out, const EnfPyramid *pyramid) {
     ENF_ASSERT(pyramid->count <= ENF_PYRAMID_PLANES);
-    uint32_t count = pyramid->count, padded = (count + 7) & ~7u;
-    size_t pad = (padded - count) * sizeof(float), size = count * sizeof(float);
-    memcpy(out->nx, pyramid->nx, size);
-    memcpy(out->ny, pyramid->ny, size);
-    memcpy(out->nz, pyramid->nz, size);
-    memcpy(out->d, pyramid->d, size);
-    memset(out->nx + count, 0, pad);
-    memset(out->ny + count, 0, pad);
-    memset(out->nz + count, 0, pad);
-    memset(out->d + count, 0, pad);
-    out->count = count;
-    out->all = (UINT64_C(1) << count) - 1;
+    copy_padded(out->nx, pyramid->nx, pyramid->count);
+    copy_padded(out->ny, pyramid->ny, pyramid->count);
+    copy_padded(out->nz, pyramid->nz, pyramid->count);
+    copy_padded(out->d, pyramid->d, pyramid->count);
+    out->count = pyramid->count;
+    out->all = (UINT64_C(1) << pyramid->count) - 1;
 }

@@ -9,7 +9,7 @@
 
 /** Planes padded to a whole number of AVX registers. */
 #define ENF_SIMD_PLANES 40
-/** Floats of eight boxes: min x, y, z and max x, y, z, eight lanes each (the boxes of an EnfKdBlock). */
+/** Floats of eight boxes: min x, y, z and max x, y, z, eight lanes each; behind them eight u32 (an EnfKdBlock). */
 #define ENF_SIMD_BOX8 48
 
 /** A pyramid ready for testing. Bit i of an `active` mask is plane i. */
@@ -28,7 +28,8 @@ typedef struct EnfSimd {
      *  else clears in *active the planes that contain it wholly. Rounding is monotone, so a box within this one would have
      *  passed the cleared planes too: skipping them below changes no result. */
     bool (*node)(const EnfSimdPlanes *planes, const float *box, uint64_t *active);
-    /** Eight boxes: bit i of the result is set unless box i is outside an active plane. */
+    /** Eight boxes. Bit 8 + i is set if lane i is in use (its u32 is not ENF_NONE); bit i if it is, and box i is not outside an
+     *  active plane. */
     uint32_t (*boxes)(const EnfSimdPlanes *planes, const float *boxes, uint64_t active);
 } EnfSimd;
 
@@ -58,6 +59,13 @@ static inline uint32_t enf_simd_lowest(uint64_t mask) {
     }
     return i;
 #endif
+}
+
+/** Number of set bits of an eight-bit mask; SSE2 has no instruction for it. */
+static inline uint32_t enf_simd_bits(uint32_t mask) {
+    mask -= mask >> 1 & 0x55;
+    mask = (mask & 0x33) + (mask >> 2 & 0x33);
+    return (mask + (mask >> 4)) & 0xf;
 }
 
 #endif

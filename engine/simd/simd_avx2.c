@@ -57,7 +57,10 @@ static uint32_t avx2_boxes(const EnfSimdPlanes *planes, const float *boxes, uint
         __m256 v = dot8(n, _mm256_loadu_ps(x), _mm256_loadu_ps(y), _mm256_loadu_ps(z));
         out = _mm256_or_ps(out, _mm256_cmp_ps(v, zero, _CMP_LT_OQ));
     }
-    return ~(uint32_t)_mm256_movemask_ps(out) & 0xff;
+    __m256i items = _mm256_loadu_si256((const __m256i *)(const void *)(boxes + ENF_SIMD_BOX8));
+    __m256i unused = _mm256_cmpeq_epi32(items, _mm256_set1_epi32(-1));
+    uint32_t used = ~(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(unused)) & 0xff;
+    return (~(uint32_t)_mm256_movemask_ps(out) & used) | used << 8;
 }
 
 const EnfSimd *enf_simd_avx2(void) {

@@ -60,7 +60,15 @@ static uint32_t sse2_boxes(const EnfSimdPlanes *planes, const float *boxes, uint
         out_low = _mm_or_ps(out_low, _mm_cmplt_ps(a, zero));
         out_high = _mm_or_ps(out_high, _mm_cmplt_ps(b, zero));
     }
-    return ~((uint32_t)_mm_movemask_ps(out_low) | (uint32_t)_mm_movemask_ps(out_high) << 4) & 0xff;
+    uint32_t out = (uint32_t)_mm_movemask_ps(out_low) | (uint32_t)_mm_movemask_ps(out_high) << 4;
+    const __m128i none = _mm_set1_epi32(-1);
+    const __m128i *items = (const __m128i *)(const void *)(boxes + ENF_SIMD_BOX8);
+    __m128i free_low = _mm_cmpeq_epi32(_mm_loadu_si128(items), none);
+    __m128i free_high = _mm_cmpeq_epi32(_mm_loadu_si128(items + 1), none);
+    uint32_t used = ~((uint32_t)_mm_movemask_ps(_mm_castsi128_ps(free_low)) |
+                      (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(free_high)) << 4) &
+                    0xff;
+    return (~out & used) | used << 8;
 }
 
 const EnfSimd *enf_simd_sse2(void) {
