@@ -211,15 +211,39 @@ void read_scene(Owner &owner) {
 
 // ---- looks -------------------------------------------------------------------------------------------------------
 
+void read_transform(EnfGltfTextureRef &to, const tinygltf::Value &transform) {
+    to.uv_set = reference(integer(transform, "texCoord", static_cast<int>(to.uv_set)));
+    to.rotation = number(transform, "rotation", 0.0);
+    numbers(transform, "offset", to.offset, 2);
+    numbers(transform, "scale", to.scale, 2);
+}
+
 EnfGltfTextureRef texture_reference(const tinygltf::TextureInfo &from) {
     EnfGltfTextureRef to = {reference(from.index), reference(from.texCoord), {0.0, 0.0}, 0.0, {1.0, 1.0}};
     if (const tinygltf::Value *transform = extension(from.extensions, "KHR_texture_transform")) {
-        to.uv_set = reference(integer(*transform, "texCoord", from.texCoord));
-        to.rotation = number(*transform, "rotation", 0.0);
-        numbers(*transform, "offset", to.offset, 2);
-        numbers(*transform, "scale", to.scale, 2);
+        read_transform(to, *transform);
     }
     return to;
+}
+
+// The archived specular-glossiness model, still met in scanned levels: its diffuse part is our base colour.
+void read_glossiness(EnfGltfMaterial &material, const tinygltf::Value &from) {
+    material.base = {ENF_NONE, 0, {0.0, 0.0}, 0.0, {1.0, 1.0}};
+    std::fill(material.base_color, material.base_color + 4, 1.0);
+    numbers(from, "diffuseFactor", material.base_color, 4);
+    material.metallic = 0.0;
+    material.roughness = 1.0 - number(from, "glossinessFactor", 1.0);
+    const tinygltf::Value *texture = member(from, "diffuseTexture");
+    if (!texture) {
+        return;
+    }
+    material.base.texture = reference(integer(*texture, "index", -1));
+    material.base.uv_set = reference(integer(*texture, "texCoord", 0));
+    const tinygltf::Value *extensions = member(*texture, "extensions");
+    const tinygltf::Value *transform = extensions ? member(*extensions, "KHR_texture_transform") : nullptr;
+    if (transform) {
+        read_transform(material.base, *transform);
+    }
 }
 
 void read_materials(Owner &owner) {
@@ -239,6 +263,9 @@ void read_materials(Owner &owner) {
         material.unlit = extension(from.extensions, "KHR_materials_unlit") != nullptr;
         const tinygltf::Value *strength = extension(from.extensions, "KHR_materials_emissive_strength");
         material.emissive_strength = strength ? number(*strength, "emissiveStrength", 1.0) : 1.0;
+        if (const tinygltf::Value *gloss = extension(from.extensions, "KHR_materials_pbrSpecularGlossiness")) {
+            read_glossiness(material, *gloss);
+        }
         owner.materials.push_back(material);
     }
 }
