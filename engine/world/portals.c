@@ -6,16 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell)
-{
+static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell) {
     const double *o = map->cells[cell].origin;
     return enf_v3(o[0], o[1], o[2]);
 }
 
 /* The plane of the polygon and how far its own vertices stray from it. One grid step is added: an author's vertex was moved by
  * up to that much when it was snapped, so an eye within it is on neither side. */
-static void derive_plane(EnfPortals *portals, EnfPortalState *state)
-{
+static void derive_plane(EnfPortals *portals, EnfPortalState *state) {
     state->normal = enf_v3(0.0, 0.0, 0.0);
     state->d = 0.0;
     state->slab = 0.0F;
@@ -40,8 +38,7 @@ static void derive_plane(EnfPortals *portals, EnfPortalState *state)
     }
 }
 
-static void derive_state(EnfPortals *portals, uint32_t index)
-{
+static void derive_state(EnfPortals *portals, uint32_t index) {
     const EnfPortal *record = &portals->map->portals[index];
     EnfPortalState *state = &portals->states[index];
     state->vertex_first = record->vertex_first;
@@ -54,8 +51,7 @@ static void derive_state(EnfPortals *portals, uint32_t index)
     derive_plane(portals, state);
 }
 
-EnfResult enf_portals_create(EnfPortals *portals, const EnfMap *map, const EnfAllocator *allocator, EnfError *error)
-{
+EnfResult enf_portals_create(EnfPortals *portals, const EnfMap *map, const EnfAllocator *allocator, EnfError *error) {
     memset(portals, 0, sizeof *portals);
     portals->map = map;
     portals->allocator = allocator;
@@ -77,21 +73,18 @@ EnfResult enf_portals_create(EnfPortals *portals, const EnfMap *map, const EnfAl
     return ENF_OK;
 }
 
-void enf_portals_destroy(EnfPortals *portals)
-{
+void enf_portals_destroy(EnfPortals *portals) {
     enf_free(portals->allocator, portals->states, portals->count, sizeof *portals->states);
     enf_free(portals->allocator, portals->vertices, portals->vertex_count, sizeof *portals->vertices);
     memset(portals, 0, sizeof *portals);
 }
 
-static void set_closed(EnfPortalState *state, bool closed)
-{
+static void set_closed(EnfPortalState *state, bool closed) {
     uint16_t others = (uint16_t)(state->flags & ~ENF_PORTAL_CLOSED);
     state->flags = closed ? (uint16_t)(others | ENF_PORTAL_CLOSED) : others;
 }
 
-void enf_portals_set_open(EnfPortals *portals, uint32_t portal, bool open)
-{
+void enf_portals_set_open(EnfPortals *portals, uint32_t portal, bool open) {
     ENF_ASSERT(portal < portals->count);
     EnfPortalState *state = &portals->states[portal];
     set_closed(state, !open);
@@ -100,16 +93,14 @@ void enf_portals_set_open(EnfPortals *portals, uint32_t portal, bool open)
     }
 }
 
-bool enf_portals_is_open(const EnfPortals *portals, uint32_t portal)
-{
+bool enf_portals_is_open(const EnfPortals *portals, uint32_t portal) {
     ENF_ASSERT(portal < portals->count);
     return (portals->states[portal].flags & ENF_PORTAL_CLOSED) == 0;
 }
 
 /* Stores `points_ws`, optionally in reverse order (a twin's front faces the other way) and mapped by `transform`. */
 static void place(EnfPortals *portals, EnfPortalState *state, const EnfVec3 *points_ws, const EnfAffine *transform,
-                  bool reverse)
-{
+                  bool reverse) {
     EnfVec3 origin = cell_origin(portals->map, state->source);
     for (uint32_t i = 0; i < state->vertex_count; i++) {
         EnfVec3 p = points_ws[reverse ? state->vertex_count - 1U - i : i];
@@ -123,8 +114,7 @@ static void place(EnfPortals *portals, EnfPortalState *state, const EnfVec3 *poi
     derive_plane(portals, state);
 }
 
-void enf_portals_move(EnfPortals *portals, uint32_t portal, const EnfVec3 *points_ws)
-{
+void enf_portals_move(EnfPortals *portals, uint32_t portal, const EnfVec3 *points_ws) {
     ENF_ASSERT(portal < portals->count);
     EnfPortalState *state = &portals->states[portal];
     place(portals, state, points_ws, NULL, false);

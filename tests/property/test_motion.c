@@ -1,0 +1,263 @@
+/* Motions: states are pure functions of the tick, and bounds hold every state. Oracles: dense sampling of every tick (and between
+ * ticks, by a finer clock), and interval evaluation of the curves in Bernstein form, which shares no code with the engine. */
+#include "harness/harness.h"
+
+#include <enfilade/world.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { KEYS = 12 };
+
+/* A path with arrays of its own. */
+typedef struct Path {
+    EnfMotion motion;
+    float times[3][KEYS];
+    float values[3][KEYS * 12];
+} Path;
+
+static EnfTrack random_track(EnfTestRng *rng, float *times, float *values, uint32_t components, double size) {
+    EnfTrack track = {(EnfPathKind)enf_test_below(rng, 3), 1 + enf_test_below(rng, KEYS), times, values};
+    float at = enf_test_chance(rng, 2) ? 0.0F : enf_test_float(rng, 0.0F, 1.0F);
+    for (uint32_t k = 0; k < track.key_count; k++) {
+        times[k] = at;
+        at += enf_test_chance(rng, 4) ? 1e-3F : enf_test_float(rng, 0.05F, 3.0F);
+    }
+    uint32_t count = track.key_count * components * (track.kind == ENF_PATH_CUBIC ? 3U : 1U);
+    for (uint32_t i = 0; i < count; i++) {
+        values[i] = enf_test_float(rng, (float)-size, (float)size);
+    }
+    return track;
+}
+
+static void random_path(EnfTestRng *rng, Path *path) {
+    memset(path, 0, sizeof *path);
+    path->motion.kind = ENF_MOTION_PATH;
+    EnfPathMotion *p = &path->motion.as.path;
+    double size = enf_test_chance(rng, 4) ? 1e5 : 10.0;
+    p->rest = enf_pose_identity();
+    p->rest.rotation = enf_quat_axis_angle(enf_v3(0.6, 0.0, 0.8), enf_test_double(rng, -3.0, 3.0));
+    p->rest.position = enf_v3(enf_test_double(rng, -size, size), 0.0, 1.0);
+    if (!enf_test_chance(rng, 4)) {
+        p->translation = random_track(rng, path->times[0], path->values[0], 3, size);
+    }
+    if (enf_test_chance(rng, 2)) {
+        p->rotation = random_track(rng, path->times[1], path->values[1], 4, 1.0);
+    }
+    if (enf_test_chance(rng, 3)) {
+        p->scale = random_track(rng, path->times[2], path->values[2], 3, 2.0);
+    }
+    p->wrap = (EnfWrap)enf_test_below(rng, 3);
+    p->seconds = enf_test_double(rng, 0.1, 30.0);
+    p->period_ticks = 1 + (uint32_t)(p->seconds * ENF_TICK_RATE);
+    p->start_tick = (int64_t)enf_test_below(rng, 1000) - 500;
+}
+
+static bool box_holds(EnfBox3 box, EnfVec3 p) {
+    return enf_box3_contains(box, p);
+}
+
+/* The corners and the middle of the local box at `tick`. */
+static void check_state_in(const EnfMotion *motion, const EnfBox3 *local, int64_t tick, EnfBox3 box) {
+    EnfPose pose = enf_motion_state(motion, tick);
+    for (int i = 0; i < 9; i++) {
+        EnfVec3 p = i == 8 ? enf_scale(enf_add(local->min, local->max), 0.5)
+                           : enf_v3(i & 1 ? local->max.x : local->min.x, i & 2 ? local->max.y : local->min.y,
+                                    i & 4 ? local->max.z : local->min.z);
+        EnfVec3 at = enf_pose_point(&pose, p);
+        if (!box_holds(box, at)) {
+            fail_msg("kind %d tick %lld: (%.17g, %.17g, %.17g) is outside its bound", (int)motion->kind, (long long)tick, at.x,
+                     at.y, at.z);
+        }
+    }
+}
+
+static EnfBox3 random_local(EnfTestRng *rng) {
+    EnfVec3 a = enf_v3(enf_test_double(rng, -2, 2), enf_test_double(rng, -2, 2), enf_test_double(rng, -2, 2));
+    EnfBox3 box = {a, enf_add(a, enf_v3(enf_test_double(rng, 0, 1), enf_test_double(rng, 0, 1), enf_test_double(rng, 0, 1)))};
+    return box;
+}
+
+/* Every tick of short ranges, a sample of long ones. */
+static void check_range(EnfTestRng *rng, const EnfMotion *motion, int64_t tick0, int64_t tick1) {
+    EnfBox3 local = random_local(rng);
+    EnfBox3 box = enf_motion_bound(motion, &local, tick0, tick1);
+    for (int i = 0; i < 60; i++) {
+        int64_t span = tick1 - tick0;
+        int64_t tick = span < 60 ? tick0 + i % (span + 1) : tick0 + (int64_t)(enf_test_u64(rng) % (uint64_t)(span + 1));
+        check_state_in(motion, &local, tick, box);
+    }
+    check_state_in(motion, &local, tick0, box);
+    check_state_in(motion, &local, tick1, box);
+}
+
+static int64_t random_tick(EnfTestRng *rng) {
+    return enf_test_chance(rng, 3) ? (int64_t)(enf_test_u64(rng) % 1000000000U) : (int64_t)enf_test_below(rng, 4000) - 2000;
+}
+
+static int64_t random_span(EnfTestRng *rng) {
+    static const uint32_t spans[] = {1, 10, 100, 1000, 100000, 1000000000};
+    return (int64_t)enf_test_below(rng, spans[enf_test_below(rng, 6)]);
+}
+
+static void test_path_bounds_hold_every_state(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(1);
+    for (uint32_t r = 0; r < enf_test_rounds(4000, 200000); r++) {
+        Path path;
+        random_path(&rng, &path);
+        int64_t tick0 = random_tick(&rng);
+        check_range(&rng, &path.motion, tick0, tick0 + random_span(&rng));
+    }
+}
+
+/* A cubic's values over a whole segment lie in the hull of its Bernstein coefficients: the engine's interval must lie within
+ * it, and hold a dense sampling of it. So the bound is neither too small nor carelessly large. */
+static void test_cubic_bounds_are_tight(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(2);
+    const EnfBox3 point = {{0, 0, 0}, {0, 0, 0}};
+    for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
+        float times[2] = {0.0F, 1.0F};
+        float values[18];
+        for (int i = 0; i < 18; i++) {
+            values[i] = enf_test_float(&rng, -5.0F, 5.0F);
+        }
+        EnfMotion motion;
+        memset(&motion, 0, sizeof motion);
+        motion.kind = ENF_MOTION_PATH;
+        motion.as.path.rest = enf_pose_identity();
+        motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
+        motion.as.path.seconds = 1.0;
+        motion.as.path.period_ticks = 1000;
+        EnfBox3 box = enf_motion_bound(&motion, &point, 0, 1000);
+        double low = HUGE_VAL;
+        double high = -HUGE_VAL;
+        for (int64_t tick = 0; tick <= 1000; tick++) {
+            double x = enf_motion_state(&motion, tick).position.x;
+            low = fmin(low, x);
+            high = fmax(high, x);
+        }
+        double p0 = (double)values[3];
+        double p1 = (double)values[12];
+        const double b[4] = {p0, p0 + (double)values[6] / 3.0, p1 - (double)values[9] / 3.0, p1};
+        double hull_low = fmin(fmin(b[0], b[1]), fmin(b[2], b[3]));
+        double hull_high = fmax(fmax(b[0], b[1]), fmax(b[2], b[3]));
+        assert_true(box.min.x <= low && box.max.x >= high);
+        assert_true(box.min.x >= hull_low - 1e-9 && box.max.x <= hull_high + 1e-9);
+        assert_true(box.min.x >= low - 1e-4 && box.max.x <= high + 1e-4); /* sampled 1000 times: within second order */
+    }
+}
+
+/* The state does not depend on what was asked before, nor on how long the world has run. */
+static void test_states_are_pure(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(3);
+    for (uint32_t r = 0; r < enf_test_rounds(500, 20000); r++) {
+        Path path;
+        random_path(&rng, &path);
+        EnfPathMotion *p = &path.motion.as.path;
+        p->wrap = r % 2 ? ENF_WRAP_LOOP : ENF_WRAP_PING_PONG;
+        int64_t tick = p->start_tick + (int64_t)enf_test_below(&rng, 2 * p->period_ticks);
+        int64_t later = tick + (int64_t)2 * p->period_ticks * (1 + (int64_t)enf_test_below(&rng, 100000));
+        EnfPose a = enf_motion_state(&path.motion, tick);
+        (void)enf_motion_state(&path.motion, tick + 17);
+        EnfPose b = enf_motion_state(&path.motion, later);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+}
+
+static EnfMotion random_swing(EnfTestRng *rng, EnfMotionKind kind) {
+    EnfMotion motion;
+    memset(&motion, 0, sizeof motion);
+    motion.kind = kind;
+    EnfSwingMotion *swing = &motion.as.swing;
+    swing->rest = enf_pose_identity();
+    swing->rest.position = enf_v3(enf_test_double(rng, -50, 50), 0.0, 3.0);
+    swing->pivot = enf_add(swing->rest.position, enf_v3(enf_test_double(rng, -1, 1), 0.0, 0.0));
+    swing->axis = enf_normalize(enf_v3(enf_test_double(rng, -1, 1), 1.0, enf_test_double(rng, -1, 1)));
+    swing->low = -3.0;
+    swing->high = 3.0;
+    swing->rate = enf_test_double(rng, 1e-3, 20.0);
+    return motion;
+}
+
+static void test_doors(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(4);
+    for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
+        EnfMotion motion = random_swing(&rng, r % 2 ? ENF_MOTION_HINGE : ENF_MOTION_SLIDE);
+        int64_t tick = (int64_t)enf_test_below(&rng, 1000000);
+        for (int event = 0; event < 3; event++) {
+            double before = enf_swing_position(&motion, tick);
+            enf_swing_set(&motion, tick, enf_test_double(&rng, -5.0, 5.0));
+            assert_true(enf_swing_position(&motion, tick) == before); /* no jump */
+            check_range(&rng, &motion, tick, tick + random_span(&rng) % 5000);
+            tick += 1 + (int64_t)enf_test_below(&rng, 200);
+            double now = enf_swing_position(&motion, tick);
+            assert_true(now >= -3.0 && now <= 3.0);
+        }
+        assert_true(enf_swing_position(&motion, tick + 1000000000) == motion.as.swing.target);
+    }
+}
+
+/* A free object anywhere within its speed stays in its bound; the caller's pose is the state. */
+static void test_free_objects_stay_within_their_speed(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(5);
+    for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
+        EnfMotion motion;
+        memset(&motion, 0, sizeof motion);
+        motion.kind = ENF_MOTION_FREE;
+        motion.as.free.max_speed = r % 3 ? enf_test_double(&rng, 0.0, 5.0) : 1000.0;
+        EnfPose pose = enf_pose_identity();
+        pose.position = enf_v3(enf_test_double(&rng, -1e5, 1e5), 0.0, 0.0);
+        int64_t pushed = random_tick(&rng);
+        enf_free_push(&motion, pushed, pose);
+        int64_t tick = pushed + random_span(&rng);
+        EnfBox3 local = random_local(&rng);
+        EnfBox3 box = enf_motion_bound(&motion, &local, pushed, tick);
+        double way = motion.as.free.max_speed * (double)(tick - pushed) / ENF_TICK_RATE;
+        EnfVec3 step = enf_normalize(enf_v3(enf_test_double(&rng, -1, 1), enf_test_double(&rng, -1, 1), 1.0));
+        EnfMotion moved = motion;
+        moved.as.free.pose.position = enf_add(pose.position, enf_scale(step, way));
+        check_state_in(&moved, &local, tick, box);
+        check_state_in(&motion, &local, tick, box);
+    }
+}
+
+/* Catmull–Rom passes through its points and has no jump in direction. */
+static void test_catmull_rom(void **state) {
+    (void)state;
+    float times[5] = {0.0F, 1.0F, 2.5F, 3.0F, 5.0F};
+    float points[15];
+    float values[45];
+    EnfTestRng rng = enf_test_rng(6);
+    for (int i = 0; i < 15; i++) {
+        points[i] = enf_test_float(&rng, -3.0F, 3.0F);
+    }
+    enf_catmull_rom(times, points, 5, values);
+    EnfMotion motion;
+    memset(&motion, 0, sizeof motion);
+    motion.kind = ENF_MOTION_PATH;
+    motion.as.path.rest = enf_pose_identity();
+    motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 5, times, values};
+    motion.as.path.seconds = 5.0;
+    motion.as.path.period_ticks = 300;
+    for (int k = 0; k < 5; k++) {
+        EnfVec3 at = enf_motion_state(&motion, (int64_t)(60.0F * times[k])).position;
+        assert_true(fabs(at.x - (double)points[3 * k]) < 1e-6 && fabs(at.z - (double)points[3 * k + 2]) < 1e-6);
+        assert_true(values[9 * k] == values[9 * k + 6]);
+    }
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_path_bounds_hold_every_state),
+    cmocka_unit_test(test_cubic_bounds_are_tight),
+    cmocka_unit_test(test_states_are_pure),
+    cmocka_unit_test(test_doors),
+    cmocka_unit_test(test_free_objects_stay_within_their_speed),
+    cmocka_unit_test(test_catmull_rom),
+};
+
+ENF_TEST_MAIN(tests)
