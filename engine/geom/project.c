@@ -74,7 +74,7 @@ static bool is_near(const Sight *s, const EnfVec3 *points_eye) {
     return !(enf_polygon_distance2(points_eye, s->count) > reach * reach);
 }
 
-/* Fills `s`; false if a coordinate is not finite. */
+/* Fills `s`; false if a coordinate (of the camera's, too) is not finite. */
 static bool look(Sight *s, const EnfCamera *camera, const EnfVec3 *points_eye, uint32_t count) {
     double size = 0.0, sum = 0.0, depth_min = HUGE_VAL, depth_max = -HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
@@ -83,7 +83,7 @@ static bool look(Sight *s, const EnfCamera *camera, const EnfVec3 *points_eye, u
         double depth = enf_dot(p, camera->forward);
         s->points[i] = enf_v3(enf_dot(p, camera->right), enf_dot(p, camera->up), depth);
         size = size > l1 ? size : l1;
-        sum += l1; /* keeps a NaN, as the maximum does not */
+        sum += s->points[i].x + s->points[i].y + depth; /* keeps a NaN, as the maxima do not */
         depth_min = depth_min < depth ? depth_min : depth;
         depth_max = depth_max > depth ? depth_max : depth;
     }
@@ -97,7 +97,7 @@ static bool look(Sight *s, const EnfCamera *camera, const EnfVec3 *points_eye, u
     s->ky = camera->tan_y / s->middle_y;
     s->sx = s->middle_x / camera->tan_x;
     s->sy = s->middle_y / camera->tan_y;
-    return sum < HUGE_VAL;
+    return fabs(sum) < HUGE_VAL;
 }
 
 static SightKind sight(Sight *s, const EnfCamera *camera, const EnfVec3 *points_eye, uint32_t count) {
