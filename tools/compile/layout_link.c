@@ -79,16 +79,6 @@ static uint32_t find_room(const EnfLayoutWork *work, const EnfOpening *opening, 
     return nearest_room(work, opening, cells, count);
 }
 
-/* How well source behind and target ahead agree with the surfaces, if the front is `normal`. */
-static int agreement(EnfLayoutWork *work, const EnfOpening *opening, EnfVec3 normal) {
-    EnfVec3 centre = opening->patch.centre;
-    int score = opening->source != ENF_NONE ? enf_layout_side(work, opening->source, centre, enf_scale(normal, -1.0)) : 0;
-    if (opening->target != ENF_NONE && opening->target != opening->source) {
-        score += enf_layout_side(work, opening->target, centre, normal);
-    }
-    return score;
-}
-
 /* Where no surface says which side is which, the middles of the two boxes do. */
 static double middles(const EnfLayoutWork *work, const EnfOpening *opening) {
     EnfVec3 from = opening->patch.centre, to = opening->patch.centre;
@@ -103,11 +93,31 @@ static double middles(const EnfLayoutWork *work, const EnfOpening *opening) {
     return enf_dot(enf_sub(to, from), opening->patch.normal);
 }
 
+/* Does the front look into the source? The seams say, or else the surfaces ahead and behind, or else the boxes. Rays that pass through
+ * a small target and end in the source again say little, so they need a margin, and the two cells must not contradict each other. */
+static bool is_flipped(EnfLayoutWork *work, const EnfOpening *opening) {
+    enum { MARGIN = 4 };
+    const EnfPatch *patch = &opening->patch;
+    double seams = enf_layout_seams(work, opening->source, patch) - enf_layout_seams(work, opening->target, patch);
+    EnfVec3 size = enf_sub(patch->box.max, patch->box.min);
+    double clear = 0.25 * enf_length(size); /* of a perimeter of at least twice the diagonal */
+    if (seams > clear || seams < -clear) {
+        return seams < 0.0;
+    }
+    EnfVec3 ahead = patch->normal, behind = enf_scale(ahead, -1.0);
+    int source = enf_layout_side(work, opening->source, patch->centre, ahead) -
+                 enf_layout_side(work, opening->source, patch->centre, behind);
+    int target = enf_layout_side(work, opening->target, patch->centre, behind) -
+                 enf_layout_side(work, opening->target, patch->centre, ahead);
+    if (source == 0 && target == 0) {
+        return middles(work, opening) < 0.0;
+    }
+    return source >= 0 && target >= 0 && source + target >= MARGIN;
+}
+
 /* Turns the polygon if its front looks into its source. A material's faces look anywhere, so they are turned in silence. */
 static void orient(EnfLayoutWork *work, EnfOpening *opening) {
-    EnfVec3 normal = opening->patch.normal;
-    int as_given = agreement(work, opening, normal), turned = agreement(work, opening, enf_scale(normal, -1.0));
-    opening->flipped = turned > as_given || (turned == as_given && as_given <= 0 && middles(work, opening) < 0.0);
+    opening->flipped = is_flipped(work, opening);
     if (opening->flipped && opening->extras != ENF_NONE) {
         enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_PORTAL_FLIPPED, enf_opening_name(work, opening),
                      "its front looks into its own room '%s'; it was turned around",
@@ -130,7 +140,7 @@ static void drop_into_the_open(EnfLayoutWork *work, EnfOpening *opening) {
 /* A target by geometry, for an opening whose source is known. The polygon may be the wrong way round. */
 static uint32_t target_by_geometry(EnfLayoutWork *work, EnfOpening *opening) {
     EnfVec3 normal = opening->patch.normal, back = enf_scale(normal, -1.0);
-    bool turned = agreement(work, opening, back) > agreement(work, opening, normal);
+    bool turned = enf_layout_looks_into(work, &opening->patch, opening->source);
     return enf_layout_cell_on_side(work, &opening->patch, turned ? back : normal, opening->source);
 }
 
@@ -175,7 +185,7 @@ static void link_loose(EnfLayoutWork *work, EnfOpening *opening, Wish wish) {
         opening->source = behind;
         opening->target = ahead;
     } else {
-        bool turned = agreement(work, opening, back) > agreement(work, opening, normal);
+        bool turned = !enf_layout_looks_into(work, &opening->patch, opening->target);
         opening->source = enf_layout_cell_on_side(work, &opening->patch, turned ? normal : back, opening->target);
     }
     if (opening->source == ENF_NONE || opening->target == ENF_NONE) {

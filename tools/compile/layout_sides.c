@@ -82,24 +82,39 @@ static bool bound_holds(const EnfShell *shell, EnfVec3 p) {
     return true;
 }
 
+/* Rays into the half-space of the normal: straight on, four at 50° around it, and four at 80°. The last meet the floor, walls and
+ * ceiling right behind the opening, where a room that surrounds another has nothing: they count double. All are turned by an odd
+ * angle, so that they run along no wall that is square to the opening. */
 int enf_layout_side(EnfLayoutWork *work, uint32_t cell, EnfVec3 from, EnfVec3 normal) {
+    enum { RINGS = 2, SPOKES = 4, ALL = 1 + SPOKES + 2 * SPOKES };
+    static const double along[RINGS] = {0.64278760968654, 0.17364817766693}, across[RINGS] = {0.76604444311898, 0.98480775301221};
     const EnfShell *shell = &work->shells.cells[cell];
     if (shell->bound_count > 0) {
-        return bound_holds(shell, enf_add(from, enf_scale(normal, 0.05))) ? 5 : -5;
+        return bound_holds(shell, enf_add(from, enf_scale(normal, 0.05))) ? ALL : -ALL;
     }
-    /* Straight on, and four at 50° around it; turned by an odd angle, so that they run along no wall that is square to the opening. */
-    EnfVec3 helper = normal.y < 0.9 && normal.y > -0.9 ? enf_v3(0.23, 0.97, 0.11) : enf_v3(0.97, 0.11, 0.23);
+    EnfVec3 helper = normal.y < 0.9 && normal.y > -0.9 ? enf_v3(0.13, 0.98, 0.11) : enf_v3(0.98, 0.11, 0.13);
     EnfVec3 u = enf_normalize(enf_cross(helper, normal)), v = enf_cross(normal, u);
-    int score = 0;
-    for (int i = 0; i < 5; i++) {
-        EnfVec3 side = i == 0 ? enf_v3(0, 0, 0) : enf_scale(i < 3 ? u : v, i % 2 ? 0.77 : -0.77);
-        EnfVec3 direction = enf_add(enf_scale(normal, i == 0 ? 1.0 : 0.64), side);
-        EnfShellHit hit;
-        if (enf_shell_ray(&work->shells, cell, from, direction, 0.01, 1e9, &hit)) {
-            score += hit.front ? 1 : -1;
+    EnfVec3 sides[SPOKES] = {u, v, enf_scale(u, -1.0), enf_scale(v, -1.0)};
+    EnfShellHit hit;
+    int score = enf_shell_ray(&work->shells, cell, from, normal, 0.01, 1e9, &hit) ? (hit.front ? 1 : -1) : 0;
+    for (int ring = 0; ring < RINGS; ring++) {
+        for (int i = 0; i < SPOKES; i++) {
+            EnfVec3 direction = enf_add(enf_scale(normal, along[ring]), enf_scale(sides[i], across[ring]));
+            if (enf_shell_ray(&work->shells, cell, from, direction, 0.01, 1e9, &hit)) {
+                score += (hit.front ? 1 : -1) * (1 + ring);
+            }
         }
     }
     return score;
+}
+
+bool enf_layout_looks_into(EnfLayoutWork *work, const EnfPatch *patch, uint32_t cell) {
+    double seams = enf_layout_seams(work, cell, patch), clear = 0.125 * enf_length(enf_sub(patch->box.max, patch->box.min));
+    if (seams > clear || seams < -clear) {
+        return seams < 0.0;
+    }
+    return enf_layout_side(work, cell, patch->centre, patch->normal) >
+           enf_layout_side(work, cell, patch->centre, enf_scale(patch->normal, -1.0));
 }
 
 static double volume(const EnfLayoutCell *cell) {
@@ -109,13 +124,17 @@ static double volume(const EnfLayoutCell *cell) {
 
 typedef struct Choice {
     uint32_t cell;
-    int score, contrast;
+    bool sewn; /* its surfaces end at the opening, fronts that way round */
+    int contrast;
 } Choice;
 
-/* A room and one nested in it are both ahead; the nested one is not behind, and has the higher priority. */
+/* A room whose surfaces end at the opening is the one. Otherwise: a room and one nested in it are both ahead; the nested one is not behind, and has the higher priority. */
 static bool is_better(const EnfLayoutWork *work, Choice a, Choice b) {
-    if (b.cell == ENF_NONE || a.contrast != b.contrast) {
-        return b.cell == ENF_NONE || a.contrast > b.contrast;
+    if (b.cell == ENF_NONE || a.sewn != b.sewn) {
+        return b.cell == ENF_NONE || a.sewn;
+    }
+    if (a.contrast != b.contrast) {
+        return a.contrast > b.contrast;
     }
     const EnfLayoutCell *ca = &work->cells.data[a.cell], *cb = &work->cells.data[b.cell];
     if (ca->priority != cb->priority) {
@@ -123,6 +142,16 @@ static bool is_better(const EnfLayoutWork *work, Choice a, Choice b) {
     }
     double va = volume(ca), vb = volume(cb);
     return va < vb || (!(va > vb) && a.cell < b.cell);
+}
+
+static bool is_on_side(EnfLayoutWork *work, const EnfPatch *patch, EnfVec3 normal, double start, Choice *choice) {
+    double seams = enf_layout_seams(work, choice->cell, patch);
+    seams = enf_dot(normal, patch->normal) > 0.0 ? -seams : seams; /* positive: the cell lies on the side of `normal` */
+    choice->sewn = seams > 0.25 * enf_length(enf_sub(patch->box.max, patch->box.min));
+    int score = enf_layout_side(work, choice->cell, enf_add(patch->centre, enf_scale(normal, start)), normal);
+    int behind = enf_layout_side(work, choice->cell, patch->centre, enf_scale(normal, -1.0));
+    choice->contrast = score - (behind > 0 ? behind : 0);
+    return choice->sewn || score > 1;
 }
 
 uint32_t enf_layout_cell_on_side(EnfLayoutWork *work, const EnfPatch *patch, EnfVec3 normal, uint32_t except) {
@@ -139,11 +168,8 @@ uint32_t enf_layout_cell_on_side(EnfLayoutWork *work, const EnfPatch *patch, Enf
             if (near[i] == except) {
                 continue;
             }
-            EnfVec3 from = enf_add(patch->centre, enf_scale(normal, starts[s]));
-            Choice choice = {near[i], enf_layout_side(work, near[i], from, normal), 0};
-            if (choice.score > 1) {
-                int behind = enf_layout_side(work, near[i], patch->centre, enf_scale(normal, -1.0));
-                choice.contrast = choice.score - (behind > 0 ? behind : 0);
+            Choice choice = {near[i], false, 0};
+            if (is_on_side(work, patch, normal, starts[s], &choice)) {
                 best = is_better(work, choice, best) ? choice : best;
             }
         }

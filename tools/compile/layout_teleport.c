@@ -73,9 +73,7 @@ static uint32_t find_portal(const EnfLayoutWork *work, const char *name, uint32_
 
 /* Turns the polygon so that its room lies behind it; there is no other side to ask. */
 static void orient(EnfLayoutWork *work, EnfOpening *opening) {
-    EnfVec3 n = opening->patch.normal, c = opening->patch.centre;
-    int ahead = enf_layout_side(work, opening->source, c, n), behind = enf_layout_side(work, opening->source, c, enf_scale(n, -1.0));
-    opening->flipped = ahead > behind;
+    opening->flipped = enf_layout_looks_into(work, &opening->patch, opening->source);
     if (opening->flipped && !opening->mirror) {
         enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_PORTAL_FLIPPED, enf_opening_name(work, opening),
                      "its front looks into its own room '%s'; it was turned around",

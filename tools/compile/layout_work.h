@@ -73,11 +73,17 @@ uint32_t enf_layout_find_rooms(const EnfLayoutWork *work, const char *text, size
 
 /** layout_sides.c: which cell lies on a side. Makes shells and cell_tree. */
 bool enf_layout_shells(EnfLayoutWork *work);
-/** −5..5: of five rays from the opening into the half-space along `normal`, those that first see a front of the cell minus those that
- *  see a back. 5 or −5 by the bound, where there is one. */
+/** −13..13: of rays from the opening into the half-space along `normal`, those that first see a front of the cell minus those that
+ *  see a back, near ones twice. 13 or −13 by the bound, where there is one. */
 int enf_layout_side(EnfLayoutWork *work, uint32_t cell, EnfVec3 from, EnfVec3 normal);
+/** Does the opening's front look into the cell, as far as seams, or else rays, tell? */
+bool enf_layout_looks_into(EnfLayoutWork *work, const EnfPatch *patch, uint32_t cell);
 /** The cell that lies on that side of the opening, other than `except`; ENF_NONE if none does. */
 uint32_t enf_layout_cell_on_side(EnfLayoutWork *work, const EnfPatch *patch, EnfVec3 normal, uint32_t except);
+
+/** layout_seams.c: metres of the opening's edges at which surfaces of the cell end and run the same way round, minus those where
+ *  they run the other way. Positive if the polygon's front is out of the cell, negative if it is into it, near 0 if unknown. */
+double enf_layout_seams(EnfLayoutWork *work, uint32_t cell, const EnfPatch *patch);
 
 /** layout_link.c: source, target, orientation and twin of every opening. */
 void enf_layout_link(EnfLayoutWork *work);

@@ -223,15 +223,34 @@ static void make_tree(EnfShells *shells, EnfShell *shell) {
     enf_free(NULL, boxes, shell->count, sizeof *boxes);
 }
 
+/* Small shells are searched whole. */
+static bool needs_tree(EnfShells *shells, EnfShell *shell) {
+    if (shell->count > SMALL_SHELL && !shell->has_tree) {
+        make_tree(shells, shell);
+    }
+    return shell->has_tree;
+}
+
+uint32_t enf_shell_overlap(EnfShells *shells, uint32_t cell, EnfBox3 box, uint32_t *out, uint32_t capacity) {
+    EnfShell *shell = &shells->cells[cell];
+    if (needs_tree(shells, shell)) {
+        EnfKdTree tree = enf_kd_tree(&shell->tree);
+        uint32_t count = enf_kd_overlap(&tree, enf_box3f_outward(box), out, capacity);
+        return count < capacity ? count : capacity;
+    }
+    uint32_t count = shell->count < capacity ? shell->count : capacity;
+    for (uint32_t i = 0; i < count; i++) {
+        out[i] = i;
+    }
+    return count;
+}
+
 bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direction, double t_min, double t_max,
                    EnfShellHit *hit) {
     EnfShell *shell = &shells->cells[cell];
     EnfVec3 start = enf_sub(enf_add(from, enf_scale(direction, t_min)), shell->origin);
     Cast cast = {shells, shell->first, start, direction, t_max - t_min, false, false, shell->inverted};
-    if (shell->count > SMALL_SHELL && !shell->has_tree) {
-        make_tree(shells, shell);
-    }
-    if (shell->has_tree) {
+    if (needs_tree(shells, shell)) {
         EnfKdTree tree = enf_kd_tree(&shell->tree);
         enf_kd_ray(&tree, start, direction, t_max - t_min, try_triangle, &cast);
     } else {

@@ -52,6 +52,10 @@ typedef struct EnfShellHit {
 bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direction, double t_min, double t_max,
                    EnfShellHit *hit);
 
+/** Triangles of a cell (counted from its first) whose boxes may overlap `box`, which is relative to the shell's origin; at most
+ *  `capacity`. */
+uint32_t enf_shell_overlap(EnfShells *shells, uint32_t cell, EnfBox3 box, uint32_t *out, uint32_t capacity);
+
 /** Could a point of `points` lie deeper than `depth` inside the cell? False is certain; cheap. */
 bool enf_shell_near(const EnfShell *shell, const EnfVec3 *points, uint32_t count, double depth);
 
