@@ -156,6 +156,13 @@ void enf_maker_light(EnfMaker *m, uint32_t cell, EnfVec3 p, float r, float g, fl
     ADD(m, light_refs, &ref, 1);
 }
 
+void enf_maker_light_window(EnfMaker *m, const EnfPlane4f *planes, uint32_t count) {
+    EnfLightRef *ref = (EnfLightRef *)m->light_refs.data + m->light_refs.count - 1;
+    ref->plane_first = m->light_planes.count;
+    ref->plane_count = count;
+    ADD(m, light_planes, planes, count);
+}
+
 void enf_maker_bound(EnfMaker *m, EnfVec3 normal, EnfVec3 point_ws) {
     uint32_t cell = m->cells.count - 1;
     EnfVec3 local = enf_sub(point_ws, cell_origin(m, cell));
@@ -506,4 +513,8 @@ const EnfMap *enf_maker_finish(EnfMaker *m, EnfError *error) {
     m->map.source_hash = 0;
     m->map.hash = enf_map_content_hash(&m->map);
     return !m->failed && enf_map_check(&m->map, error) == ENF_OK ? &m->map : NULL;
+}
+
+const EnfMap *enf_maker_map(const EnfMaker *m) {
+    return &m->map;
 }

@@ -33,6 +33,8 @@ uint32_t enf_maker_teleport(EnfMaker *maker, uint32_t source, uint32_t target, c
                             const EnfAffine *transform, uint32_t twin);
 /** A point light that reaches its own cell alone. */
 void enf_maker_light(EnfMaker *maker, uint32_t cell, EnfVec3 position_ws, float r, float g, float b, float range);
+/** Limits the newest light in its cell to what lies inside `planes` (relative to the light). */
+void enf_maker_light_window(EnfMaker *maker, const EnfPlane4f *planes, uint32_t count);
 /** The half-space n·p <= n·point of the bound of the newest cell. */
 void enf_maker_bound(EnfMaker *maker, EnfVec3 normal, EnfVec3 point_ws);
 /** Raw records, for what no test needs more than once: entities, paths … go straight in. */
@@ -44,6 +46,8 @@ uint32_t enf_maker_camera(EnfMaker *maker, const EnfMapCamera *camera);
 
 /** The map, owned by the maker; NULL with `error` if it does not pass enf_map_check. Nothing may be added after it. */
 const EnfMap *enf_maker_finish(EnfMaker *maker, EnfError *error);
+/** What enf_maker_finish gave. */
+const EnfMap *enf_maker_map(const EnfMaker *maker);
 /** The map's half-portal for a number that enf_maker_portal (`way` 0: as given, 1: its twin) or enf_maker_teleport gave. */
 uint32_t enf_maker_half(const EnfMaker *maker, uint32_t number, uint32_t way);
 
