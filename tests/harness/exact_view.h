@@ -168,7 +168,7 @@ typedef enum PortalKind {
     PORTAL_NEAR,      /* a vertex, an edge or the inside near the eye */
     PORTAL_EDGE_ON,   /* the eye in or nearly in its plane */
     PORTAL_SLIVER,    /* of no width to speak of */
-    PORTAL_FAR,       /* up to 100 km large or away */
+    PORTAL_FAR,       /* 100 km away; or 10^5 km large, and near */
     PORTAL_DOUBLED,   /* vertices that coincide or lie on a line */
     PORTAL_EYE_PLANE, /* vertices at the depth where portals are cut */
     PORTAL_GRID,      /* on the compiler's grid, parallel to the axes */
@@ -286,8 +286,12 @@ static inline Portal any_portal(EnfTestRng *rng, const EnfCamera *camera, Portal
         return ellipse_portal(rng, middle, u, any_vector(rng, any_size(rng, -12.0, -3.0)));
     }
     case PORTAL_FAR: {
-        EnfVec3 middle = any_vector(rng, any_size(rng, 2.0, 5.0)), u = any_vector(rng, any_size(rng, 0.0, 5.0));
-        return ellipse_portal(rng, middle, u, any_vector(rng, any_size(rng, 0.0, 5.0)));
+        /* once in four a wall of a thousand kilometres and more that passes close by: the pad alone is too small for it */
+        bool vast = enf_test_chance(rng, 4);
+        double least = vast ? 6.0 : 0.0, most = vast ? 8.0 : 5.0;
+        EnfVec3 middle = any_vector(rng, vast ? any_size(rng, -1.5, 0.0) : any_size(rng, 2.0, 5.0));
+        EnfVec3 u = any_vector(rng, any_size(rng, least, most));
+        return ellipse_portal(rng, middle, u, any_vector(rng, any_size(rng, least, most)));
     }
     case PORTAL_DOUBLED:
         return doubled_portal(rng, camera);

@@ -91,7 +91,11 @@ static void check_portal(const EnfCamera *camera, const Portal *portal, EnfWindo
         right = right && enf_window_is_empty(out) && (!seen || touches_only(parent, range));
     } else if (what == ENF_PROJECT_PARENT) {
         counts->parents++;
-        Quad reach = quad(ENF_TOL_PORTAL_EYE + 1e-6);
+        double size = 0.0; /* a rounding of the vertices' frame more is granted */
+        for (uint32_t i = 0; i < portal->count; i++) {
+            size = fmax(size, enf_length(portal->points[i]));
+        }
+        Quad reach = quad(ENF_TOL_PORTAL_EYE + 1e-6 + 0x1p-44 * size * (1.0 + camera->tan_x + camera->tan_y));
         right = enf_window_contains(out, parent) && exact_distance2(portal->points, portal->count) <= reach * reach;
     } else {
         counts->windows++;
