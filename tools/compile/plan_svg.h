@@ -5,7 +5,6 @@
 #include "compile/soup.h"
 
 /** Writes the plan atomically. `title` names the level. Byte-identical for equal input. */
-EnfResult enf_plan_write(const char *path, const char *title, const EnfLayout *layout, const EnfSoup *soup,
-                         EnfError *error);
+EnfResult enf_plan_write(const char *path, const char *title, const EnfLayout *layout, const EnfSoup *soup, EnfError *error);
 
 #endif

@@ -2,6 +2,7 @@
 #include "compile/soup.h"
 
 #include "compile/exact.h"
+#include "compile/layout_work.h"
 #include "compile/weld.h"
 
 #include <stdlib.h>
@@ -107,7 +108,10 @@ static void bake_node(EnfSoup *soup, const EnfSource *source, const EnfLayout *l
     const EnfSourceMesh *mesh = &source->meshes[source->nodes[node].mesh];
     set_cofactors(&baker);
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        bake_primitive(&baker, &source->primitives[mesh->primitive_first + i]);
+        const EnfSourcePrimitive *primitive = &source->primitives[mesh->primitive_first + i];
+        if (!enf_material_is_open(source, primitive->material)) {
+            bake_primitive(&baker, primitive);
+        }
     }
     soup->degenerate_count += baker.dropped;
     if (baker.dropped > 0) {
@@ -118,22 +122,25 @@ static void bake_node(EnfSoup *soup, const EnfSource *source, const EnfLayout *l
 
 /* Counts what will be baked, so that the arrays are allocated once. */
 static EnfResult allocate(EnfSoup *soup, const EnfSource *source, const EnfLayout *layout, EnfError *error) {
-    uint64_t vertices = 0, triangles = 0;
+    uint64_t vertices = 0, triangles = 0, drawn_triangles = 0;
     for (uint32_t node = 0; node < source->node_count; node++) {
         if (!is_drawn(source, layout, node)) {
             continue;
         }
         const EnfSourceMesh *mesh = &source->meshes[source->nodes[node].mesh];
         for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-            vertices += source->primitives[mesh->primitive_first + i].vertex_count;
-            triangles += source->primitives[mesh->primitive_first + i].index_count / 3;
+            const EnfSourcePrimitive *primitive = &source->primitives[mesh->primitive_first + i];
+            bool drawn = !(source->materials[primitive->material].flags & ENF_MATERIAL_NODRAW);
+            vertices += primitive->vertex_count;
+            triangles += primitive->index_count / 3;
+            drawn_triangles += drawn ? primitive->index_count / 3 : 0;
         }
     }
     if (vertices > SOUP_VERTICES_MAX || triangles > SOUP_TRIANGLES_MAX) {
         return enf_error_set(error, ENF_ERROR_SIZE, UINT64_MAX, "the level has %llu triangles: more than %llu",
                              (unsigned long long)triangles, (unsigned long long)SOUP_TRIANGLES_MAX);
     }
-    soup->source_triangle_count = (uint32_t)triangles;
+    soup->source_triangle_count = (uint32_t)drawn_triangles;
     soup->vertices = malloc((size_t)(vertices + 1) * sizeof *soup->vertices);
     soup->triangles = malloc((size_t)(triangles + 1) * sizeof *soup->triangles);
     if (!soup->vertices || !soup->triangles) {

@@ -29,7 +29,7 @@ typedef struct EnfSoup {
     uint32_t vertex_count;
     EnfSoupTriangle *triangles;
     uint32_t triangle_count;
-    uint32_t source_triangle_count; /**< before dropping and splitting */
+    uint32_t source_triangle_count; /**< drawn ones, before dropping and splitting */
     uint32_t degenerate_count, split_count;
 } EnfSoup;
 

@@ -317,14 +317,14 @@ static EnfPointTree *open_points(const EnfEdges *edges, const EnfSoup *soup) {
 
 static bool weld_edges(Weld *weld, EnfEdges *edges, const EnfSoup *soup) {
     weld->points = edges->points;
-    weld->work.data = edges->open;
-    weld->work.count = weld->work.capacity = edges->open_count;
-    edges->open = NULL;
     weld->hits_max = hits_max(soup->triangle_count);
     weld->tree = open_points(edges, soup);
     if (!weld->tree) {
         return false;
     }
+    weld->work.data = edges->open;
+    weld->work.count = weld->work.capacity = edges->open_count;
+    edges->open = NULL;
     for (int i = 0; i < PASSES_MAX && weld->work.count > 0; i++) {
         if (!pass(weld)) {
             return false;

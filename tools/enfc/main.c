@@ -88,7 +88,8 @@ static EnfResult compile(const Options *options, EnfLevelProject *project, EnfCo
     EnfResult result = def.output ? enf_compile(&def, report, error)
                                   : enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory");
     enfc_print_findings(&report->diagnosis);
-    if (result == ENF_OK && !options->quiet) {
+    bool json_on_stdout = options->json && strcmp(options->json, "-") == 0;
+    if (result == ENF_OK && !options->quiet && !json_on_stdout) {
         enfc_print_summary(def.level, def.output, report);
     }
     free(beside);

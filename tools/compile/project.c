@@ -1,19 +1,10 @@
-/* The compiler's settings: their defaults, and the project files that change them. */
-#include "compile/json.h"
+/* Settings by name: the project files that change them, and their part in the identity of a map. */
 #include "compile/project.h"
+#include "compile/json.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-EnfCompileSettings enf_compile_settings_default(void) {
-    return (EnfCompileSettings){.leak_gap = 0.25,
-                                .portal_snap = 0.05,
-                                .crease_deg = 30.0,
-                                .max_image = 2048,
-                                .weld_tjunctions = true,
-                                .detect_leaks = true};
-}
 
 /* ---- the table -------------------------------------------------------------------------------------------------- */
 

@@ -1,0 +1,258 @@
+/* Outlines from triangles: edges of what faces up, seen from above, cancel where two of them meet; what is left is walked into
+ * loops. Treads of stairs meet in the plan though risers part them, so heights are left out of the comparison. */
+#include "compile/plan_outline.h"
+
+#include "compile/exact.h"
+
+#include <enfilade/tolerances.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Loops smaller than this (square metres) are clutter. */
+#define AREA_MIN 0.02
+/* With this many loops, only those of the size of a table or more are drawn. */
+enum { LOOPS_MANY = 150 };
+#define AREA_MIN_MANY 0.3
+
+typedef struct Flat {
+    int64_t x, z;
+} Flat;
+
+typedef struct FlatEdge {
+    Flat from, to;
+    bool used;
+} FlatEdge;
+
+static int compare_flat(Flat a, Flat b) {
+    if (a.x != b.x) {
+        return a.x < b.x ? -1 : 1;
+    }
+    return (a.z > b.z) - (a.z < b.z);
+}
+
+static Flat smaller(const FlatEdge *e) {
+    return compare_flat(e->from, e->to) < 0 ? e->from : e->to;
+}
+
+static Flat larger(const FlatEdge *e) {
+    return compare_flat(e->from, e->to) < 0 ? e->to : e->from;
+}
+
+/* Edges with the same ends come together, whichever way they run. */
+static int compare_ends(const void *left, const void *right) {
+    int first = compare_flat(smaller(left), smaller(right));
+    return first ? first : compare_flat(larger(left), larger(right));
+}
+
+static int compare_starts(const void *left, const void *right) {
+    const FlatEdge *a = left, *b = right;
+    int first = compare_flat(a->from, b->from);
+    return first ? first : compare_flat(a->to, b->to);
+}
+
+/* ---- edges ------------------------------------------------------------------------------------------------------ */
+
+/* Does the triangle face up, more or less? */
+static bool faces_up(const EnfSoup *soup, const EnfSoupTriangle *t) {
+    EnfVec3 a = enf_grid_point(soup->vertices[t->v[0]].p);
+    EnfVec3 n = enf_cross(enf_sub(enf_grid_point(soup->vertices[t->v[1]].p), a),
+                          enf_sub(enf_grid_point(soup->vertices[t->v[2]].p), a));
+    return n.y > 0.3 * enf_length(n);
+}
+
+static uint32_t find_edges(const EnfSoup *soup, const uint32_t *triangles, uint32_t count, FlatEdge *edges) {
+    uint32_t made = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const EnfSoupTriangle *t = &soup->triangles[triangles[i]];
+        for (int corner = 0; corner < 3 && faces_up(soup, t); corner++) {
+            EnfGrid3 a = soup->vertices[t->v[corner]].p, b = soup->vertices[t->v[(corner + 1) % 3]].p;
+            FlatEdge edge = {{a.x, a.z}, {b.x, b.z}, false};
+            if (compare_flat(edge.from, edge.to) != 0) {
+                edges[made++] = edge;
+            }
+        }
+    }
+    return made;
+}
+
+/* Leaves, of edges with the same ends, as many as run one way more than the other. */
+static uint32_t cancel(FlatEdge *edges, uint32_t count) {
+    uint32_t kept = 0;
+    qsort(edges, count, sizeof *edges, compare_ends);
+    for (uint32_t first = 0, end; first < count; first = end) {
+        int balance = 0;
+        Flat low = smaller(&edges[first]), high = larger(&edges[first]);
+        for (end = first; end < count && compare_ends(&edges[first], &edges[end]) == 0; end++) {
+            balance += compare_flat(edges[end].from, low) == 0 ? 1 : -1;
+        }
+        /* Once is enough for a picture: where floors overlap in the plan, an edge may be left several times. */
+        if (balance != 0) {
+            edges[kept++] = balance > 0 ? (FlatEdge){low, high, false} : (FlatEdge){high, low, false};
+        }
+    }
+    return kept;
+}
+
+/* ---- loops ------------------------------------------------------------------------------------------------------ */
+
+static FlatEdge *next_edge(FlatEdge *edges, uint32_t count, Flat from) {
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (compare_flat(edges[middle].from, from) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    for (; low < count && compare_flat(edges[low].from, from) == 0; low++) {
+        if (!edges[low].used) {
+            return &edges[low];
+        }
+    }
+    return NULL;
+}
+
+static void add_point(EnfPlanOutline *outline, Flat p) {
+    if (!ENF_ARRAY_ROOM(&outline->points, 1)) {
+        outline->failed = true;
+        return;
+    }
+    outline->points.data[outline->points.count++] = (EnfPlanPoint){(double)p.x * ENF_GRID_STEP, (double)p.z * ENF_GRID_STEP};
+}
+
+/* Leaves out points between collinear neighbours; returns the new count. */
+static uint32_t straighten(EnfPlanPoint *points, uint32_t count) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count && count > 3; i++) {
+        EnfPlanPoint a = points[kept ? kept - 1 : count - 1], b = points[i], c = points[(i + 1) % count];
+        double cross = (b.x - a.x) * (c.z - b.z) - (b.z - a.z) * (c.x - b.x);
+        if (fabs(cross) > 1e-6) {
+            points[kept++] = b;
+        }
+    }
+    return count > 3 ? kept : count;
+}
+
+static double loop_area(const EnfPlanPoint *points, uint32_t count) {
+    double twice = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        EnfPlanPoint a = points[i], b = points[(i + 1) % count];
+        twice += b.x * a.z - a.x * b.z;
+    }
+    return 0.5 * twice;
+}
+
+static void walk(EnfPlanOutline *outline, FlatEdge *edges, uint32_t count, FlatEdge *edge) {
+    EnfPlanLoop loop = {outline->points.count, 0, 0, false};
+    for (; edge && !outline->failed; edge = next_edge(edges, count, edge->to)) {
+        edge->used = true;
+        add_point(outline, edge->from);
+    }
+    EnfPlanPoint *points = outline->points.data + loop.point_first;
+    loop.point_count = straighten(points, outline->points.count - loop.point_first);
+    outline->points.count = loop.point_first + loop.point_count;
+    loop.area = loop_area(points, loop.point_count);
+    if (loop.point_count < 3 || fabs(loop.area) < AREA_MIN || !ENF_ARRAY_ROOM(&outline->loops, 1)) {
+        outline->points.count = loop.point_first;
+        return;
+    }
+    outline->loops.data[outline->loops.count++] = loop;
+}
+
+static int compare_loops(const void *left, const void *right) {
+    const EnfPlanLoop *a = left, *b = right;
+    double difference = fabs(b->area) - fabs(a->area);
+    return difference != 0 ? (difference > 0 ? 1 : -1) : (a->point_first > b->point_first) - (a->point_first < b->point_first);
+}
+
+static bool point_inside(const EnfPlanOutline *outline, const EnfPlanLoop *loop, EnfPlanPoint p) {
+    bool in = false;
+    for (uint32_t i = 0; i < loop->point_count; i++) {
+        EnfPlanPoint a = outline->points.data[loop->point_first + i];
+        EnfPlanPoint b = outline->points.data[loop->point_first + (i + 1) % loop->point_count];
+        if ((a.z > p.z) != (b.z > p.z) && p.x < a.x + (p.z - a.z) / (b.z - a.z) * (b.x - a.x)) {
+            in = !in;
+        }
+    }
+    return in;
+}
+
+/* Drops clutter, and finds which loops lie on others. */
+static void sort_loops(EnfPlanOutline *outline) {
+    if (outline->loops.count == 0) {
+        return;
+    }
+    qsort(outline->loops.data, outline->loops.count, sizeof *outline->loops.data, compare_loops);
+    while (outline->loops.count > LOOPS_MANY && fabs(outline->loops.data[outline->loops.count - 1].area) < AREA_MIN_MANY) {
+        outline->loops.count--;
+    }
+    for (uint32_t i = 1; i < outline->loops.count; i++) {
+        EnfPlanLoop *loop = &outline->loops.data[i];
+        EnfPlanPoint a = outline->points.data[loop->point_first], b = outline->points.data[loop->point_first + 1];
+        EnfPlanPoint middle = {(a.x + b.x) / 2, (a.z + b.z) / 2};
+        for (uint32_t k = 0; k < i && k < LOOPS_MANY && loop->area > 0 && !loop->inner; k++) {
+            loop->inner = outline->loops.data[k].area > 0 && point_inside(outline, &outline->loops.data[k], middle);
+        }
+    }
+}
+
+/* ---- the label -------------------------------------------------------------------------------------------------- */
+
+/* The middle of the largest loop if that is inside it, else the middle of its largest triangle. */
+static void place_label(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
+    const EnfPlanLoop *loop = &outline->loops.data[0];
+    double x = 0, z = 0, twice = 0;
+    for (uint32_t i = 0; i < loop->point_count; i++) {
+        EnfPlanPoint a = outline->points.data[loop->point_first + i];
+        EnfPlanPoint b = outline->points.data[loop->point_first + (i + 1) % loop->point_count];
+        double cross = b.x * a.z - a.x * b.z;
+        twice += cross;
+        x += (a.x + b.x) * cross;
+        z += (a.z + b.z) * cross;
+    }
+    outline->label = (EnfPlanPoint){x / (3 * twice), z / (3 * twice)};
+    bool inside = point_inside(outline, loop, outline->label);
+    for (uint32_t i = 1; i < outline->loops.count && inside; i++) {
+        inside = outline->loops.data[i].area > 0 || !point_inside(outline, &outline->loops.data[i], outline->label);
+    }
+    double largest = 0;
+    for (uint32_t i = 0; i < count && !inside; i++) {
+        const EnfSoupTriangle *t = &soup->triangles[triangles[i]];
+        EnfVec3 a = enf_grid_point(soup->vertices[t->v[0]].p), b = enf_grid_point(soup->vertices[t->v[1]].p);
+        EnfVec3 c = enf_grid_point(soup->vertices[t->v[2]].p);
+        double up = enf_cross(enf_sub(b, a), enf_sub(c, a)).y;
+        if (up > largest) {
+            largest = up;
+            outline->label = (EnfPlanPoint){(a.x + b.x + c.x) / 3, (a.z + b.z + c.z) / 3};
+        }
+    }
+}
+
+void enf_plan_outline(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
+    memset(outline, 0, sizeof *outline);
+    FlatEdge *edges = malloc(((size_t)count * 3 + 1) * sizeof *edges);
+    if (!edges) {
+        outline->failed = true;
+        return;
+    }
+    uint32_t edge_count = cancel(edges, find_edges(soup, triangles, count, edges));
+    qsort(edges, edge_count, sizeof *edges, compare_starts);
+    for (uint32_t i = 0; i < edge_count && !outline->failed; i++) {
+        if (!edges[i].used) {
+            walk(outline, edges, edge_count, &edges[i]);
+        }
+    }
+    free(edges);
+    sort_loops(outline);
+    if (outline->loops.count > 0) {
+        place_label(outline, soup, triangles, count);
+    }
+}
+
+void enf_plan_outline_free(EnfPlanOutline *outline) {
+    free(outline->points.data);
+    free(outline->loops.data);
+    memset(outline, 0, sizeof *outline);
+}

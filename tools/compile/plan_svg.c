@@ -1,0 +1,437 @@
+/* The floor plan as SVG: storeys as panels side by side or one below the other, cells in soft colours that differ from their
+ * neighbours', portals as bars, a scale bar and a legend. */
+#include "compile/plan_svg.h"
+
+#include "compile/exact.h"
+#include "compile/names.h"
+#include "compile/plan_outline.h"
+#include "compile/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Pixels of the picture. */
+#define PAGE_WIDTH 1400.0
+#define MARGIN 40.0
+#define HEADER 96.0
+#define PANEL_TITLE 34.0
+#define LEGEND 64.0
+#define FONT_MAX 15.0
+#define FONT_MIN 3.0
+
+/* Floors whose heights (metres) part by more than this belong to different storeys. */
+#define STOREY_GAP 1.5
+
+static const char *const palette[] = {"#f3d9c6", "#d5e5d2", "#d3e1ee", "#efe3b8", "#e5d6e8", "#cfe6e3",
+                                      "#f2d3d3", "#dfe3c3", "#dcdcf0", "#f0dcb9", "#d9e9c9", "#ead7d0"};
+enum { COLORS = sizeof palette / sizeof *palette };
+
+typedef struct Storey {
+    double floor;                      /* metres: the lowest of its cells */
+    double min_x, min_z, max_x, max_z; /* metres */
+    double left, top;                  /* pixels: where (min_x, min_z) goes */
+} Storey;
+
+typedef struct Plan {
+    const EnfLayout *layout;
+    const EnfSoup *soup;
+    EnfText svg;
+    uint32_t *first, *triangles; /* triangles of cell c: triangles[first[c] .. first[c + 1]) */
+    uint32_t *storey;            /* of a cell */
+    uint8_t *color;
+    ENF_ARRAY(Storey) storeys;
+    double scale; /* pixels a metre */
+    double height;
+    bool failed;
+} Plan;
+
+static bool is_shown(const Plan *plan, uint32_t cell) {
+    return !(plan->layout->cells[cell].flags & ENF_CELL_OUTSIDE);
+}
+
+static EnfVec3 low_corner(const EnfLayoutCell *cell) {
+    return enf_grid_point(cell->min);
+}
+
+static EnfVec3 high_corner(const EnfLayoutCell *cell) {
+    return enf_grid_point(cell->max);
+}
+
+/* ---- what goes where -------------------------------------------------------------------------------------------- */
+
+static bool sort_triangles(Plan *plan) {
+    uint32_t cell_count = plan->layout->cell_count;
+    plan->first = calloc((size_t)cell_count + 2, sizeof *plan->first);
+    plan->triangles = malloc(((size_t)plan->soup->triangle_count + 1) * sizeof *plan->triangles);
+    if (!plan->first || !plan->triangles) {
+        return false;
+    }
+    for (uint32_t i = 0; i < plan->soup->triangle_count; i++) {
+        if (plan->soup->triangles[i].cell < cell_count) {
+            plan->first[plan->soup->triangles[i].cell + 2]++;
+        }
+    }
+    for (uint32_t c = 2; c < cell_count + 2; c++) {
+        plan->first[c] += plan->first[c - 1];
+    }
+    for (uint32_t i = 0; i < plan->soup->triangle_count; i++) {
+        if (plan->soup->triangles[i].cell < cell_count) {
+            plan->triangles[plan->first[plan->soup->triangles[i].cell + 1]++] = i;
+        }
+    }
+    return true;
+}
+
+typedef struct Floor {
+    int64_t y;
+    uint32_t cell;
+} Floor;
+
+static int compare_floors(const void *left, const void *right) {
+    const Floor *a = left, *b = right;
+    if (a->y != b->y) {
+        return a->y < b->y ? -1 : 1;
+    }
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+static void extend(Storey *storey, const EnfLayoutCell *cell) {
+    EnfVec3 low = low_corner(cell), high = high_corner(cell);
+    storey->min_x = fmin(storey->min_x, low.x);
+    storey->min_z = fmin(storey->min_z, low.z);
+    storey->max_x = fmax(storey->max_x, high.x);
+    storey->max_z = fmax(storey->max_z, high.z);
+}
+
+/* Groups cells whose floors follow one another without a gap. */
+static bool find_storeys(Plan *plan) {
+    const EnfLayout *layout = plan->layout;
+    Floor *floors = malloc(((size_t)layout->cell_count + 1) * sizeof *floors);
+    plan->storey = calloc((size_t)layout->cell_count + 1, sizeof *plan->storey);
+    uint32_t count = 0;
+    bool ok = floors && plan->storey;
+    for (uint32_t i = 0; i < layout->cell_count && ok; i++) {
+        if (is_shown(plan, i)) {
+            floors[count++] = (Floor){layout->cells[i].min.y, i};
+        }
+    }
+    if (ok) {
+        qsort(floors, count, sizeof *floors, compare_floors);
+    }
+    for (uint32_t i = 0; i < count && ok; i++) {
+        double y = low_corner(&layout->cells[floors[i].cell]).y;
+        bool next = i == 0 || y - low_corner(&layout->cells[floors[i - 1].cell]).y > STOREY_GAP;
+        if (next) {
+            ok = ENF_ARRAY_ROOM(&plan->storeys, 1);
+            if (!ok) {
+                break;
+            }
+            plan->storeys.data[plan->storeys.count++] = (Storey){y, 1e300, 1e300, -1e300, -1e300, 0, 0};
+        }
+        plan->storey[floors[i].cell] = plan->storeys.count - 1;
+        extend(&plan->storeys.data[plan->storeys.count - 1], &layout->cells[floors[i].cell]);
+    }
+    free(floors);
+    return ok;
+}
+
+/* Scale and places of the panels: one column, or two where the storeys are narrow. */
+static void place_panels(Plan *plan) {
+    double widest = 1, tallest = 1;
+    for (uint32_t i = 0; i < plan->storeys.count; i++) {
+        widest = fmax(widest, plan->storeys.data[i].max_x - plan->storeys.data[i].min_x);
+        tallest = fmax(tallest, plan->storeys.data[i].max_z - plan->storeys.data[i].min_z);
+    }
+    uint32_t columns = plan->storeys.count > 1 && tallest > 0.8 * widest ? 2 : 1;
+    double panel_width = (PAGE_WIDTH - (columns + 1) * MARGIN) / columns;
+    plan->scale = fmin(panel_width / widest, 1600.0 / tallest);
+    double top = HEADER, row_height = 0;
+    for (uint32_t i = 0; i < plan->storeys.count; i++) {
+        /* The highest storey first, as one reads a section. */
+        Storey *storey = &plan->storeys.data[plan->storeys.count - 1 - i];
+        uint32_t column = i % columns;
+        if (column == 0) {
+            top += row_height;
+            row_height = 0;
+        }
+        storey->left = MARGIN + column * (panel_width + MARGIN);
+        storey->top = top + PANEL_TITLE;
+        row_height = fmax(row_height, (storey->max_z - storey->min_z) * plan->scale + PANEL_TITLE + MARGIN);
+    }
+    plan->height = top + row_height + LEGEND;
+}
+
+/* The first colour that no neighbour has, counted from a place of the cell's own. */
+static bool choose_colors(Plan *plan) {
+    const EnfLayout *layout = plan->layout;
+    plan->color = calloc((size_t)layout->cell_count + 1, 1);
+    uint32_t portal = 0;
+    for (uint32_t cell = 0; plan->color && cell < layout->cell_count; cell++) {
+        bool taken[COLORS] = {false};
+        for (; portal < layout->portal_count && layout->portals[portal].source <= cell; portal++) {
+            uint32_t target = layout->portals[portal].target;
+            if (layout->portals[portal].source == cell && target < cell) {
+                taken[plan->color[target]] = true;
+            }
+        }
+        uint32_t start = cell * 5 % COLORS, i = 0;
+        while (i < COLORS - 1 && taken[(start + i) % COLORS]) {
+            i++;
+        }
+        plan->color[cell] = (uint8_t)((start + i) % COLORS);
+    }
+    return plan->color != NULL;
+}
+
+/* ---- cells ------------------------------------------------------------------------------------------------------ */
+
+static double page_x(const Plan *plan, const Storey *storey, double x) {
+    return storey->left + (x - storey->min_x) * plan->scale;
+}
+
+static double page_y(const Plan *plan, const Storey *storey, double z) {
+    return storey->top + (z - storey->min_z) * plan->scale;
+}
+
+static void put_loop(Plan *plan, const Storey *storey, const EnfPlanOutline *outline, const EnfPlanLoop *loop) {
+    for (uint32_t i = 0; i < loop->point_count; i++) {
+        EnfPlanPoint p = outline->points.data[loop->point_first + i];
+        enf_text_put(&plan->svg, "%s%.2f %.2f", i ? "L" : "M", page_x(plan, storey, p.x), page_y(plan, storey, p.z));
+    }
+    enf_text_put(&plan->svg, "Z");
+}
+
+/* The cell's name without its suffix, as large as its width allows. */
+static void put_name(Plan *plan, const Storey *storey, const EnfLayoutCell *cell, EnfPlanPoint at) {
+    EnfNodeName name = enf_node_name(cell->name);
+    double width = (high_corner(cell).x - low_corner(cell).x) * plan->scale;
+    double height = (high_corner(cell).z - low_corner(cell).z) * plan->scale;
+    size_t letters = name.base > 0 ? name.base : 1;
+    double size = fmin(fmin(FONT_MAX, 0.9 * width / (0.56 * (double)letters)), 0.45 * height);
+    if (size < FONT_MIN || name.base == 0) {
+        return;
+    }
+    enf_text_put(&plan->svg, "<text class=\"name\" x=\"%.2f\" y=\"%.2f\" font-size=\"%.1f\">", page_x(plan, storey, at.x),
+                 page_y(plan, storey, at.z) + 0.35 * size, size);
+    enf_text_put_xml(&plan->svg, name.text, name.base);
+    enf_text_put(&plan->svg, "</text>\n");
+}
+
+/* A cell of which nothing faces up: its box, dashed. */
+static void put_box(Plan *plan, const Storey *storey, const EnfLayoutCell *cell) {
+    EnfVec3 low = low_corner(cell), high = high_corner(cell);
+    enf_text_put(&plan->svg, "<rect class=\"box\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+                 page_x(plan, storey, low.x), page_y(plan, storey, low.z), (high.x - low.x) * plan->scale,
+                 (high.z - low.z) * plan->scale);
+}
+
+static void put_outline(Plan *plan, const Storey *storey, const EnfPlanOutline *outline, const char *fill) {
+    bool furniture = false;
+    enf_text_put(&plan->svg, "<path class=\"cell\" fill=\"%s\" d=\"", fill);
+    for (uint32_t i = 0; i < outline->loops.count; i++) {
+        furniture = furniture || outline->loops.data[i].inner;
+        if (!outline->loops.data[i].inner) {
+            put_loop(plan, storey, outline, &outline->loops.data[i]);
+        }
+    }
+    enf_text_put(&plan->svg, "\"/>\n");
+    if (furniture) {
+        enf_text_put(&plan->svg, "<path class=\"thing\" d=\"");
+        for (uint32_t i = 0; i < outline->loops.count; i++) {
+            if (outline->loops.data[i].inner) {
+                put_loop(plan, storey, outline, &outline->loops.data[i]);
+            }
+        }
+        enf_text_put(&plan->svg, "\"/>\n");
+    }
+}
+
+static void put_cell(Plan *plan, uint32_t index, bool names) {
+    const EnfLayoutCell *cell = &plan->layout->cells[index];
+    const Storey *storey = &plan->storeys.data[plan->storey[index]];
+    EnfPlanOutline outline;
+    uint32_t first = plan->first[index];
+    enf_plan_outline(&outline, plan->soup, plan->triangles + first, plan->first[index + 1] - first);
+    plan->failed = plan->failed || outline.failed;
+    EnfPlanPoint middle = {0.5 * (low_corner(cell).x + high_corner(cell).x), 0.5 * (low_corner(cell).z + high_corner(cell).z)};
+    if (names) {
+        put_name(plan, storey, cell, outline.loops.count > 0 ? outline.label : middle);
+    } else if (outline.loops.count > 0) {
+        put_outline(plan, storey, &outline, palette[plan->color[index]]);
+    } else {
+        put_box(plan, storey, cell);
+    }
+    enf_plan_outline_free(&outline);
+}
+
+/* ---- portals ---------------------------------------------------------------------------------------------------- */
+
+static const char *portal_class(const EnfLayoutPortal *portal) {
+    return portal->has_transform ? "far" : portal->flags & ENF_PORTAL_CLOSED ? "shut" : "open";
+}
+
+/* An upright portal is a bar between its two ends in the plan; others show their area. */
+static void put_portal(Plan *plan, const Storey *storey, const EnfLayoutPortal *portal) {
+    const EnfGrid3 *points = plan->layout->points + portal->point_first;
+    uint32_t count = portal->point_count, from = 0, to = 0;
+    double longest = -1, twice = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        EnfVec3 a = enf_grid_point(points[i]), next = enf_grid_point(points[(i + 1) % count]);
+        twice += next.x * a.z - a.x * next.z;
+        for (uint32_t k = i + 1; k < count; k++) {
+            EnfVec3 b = enf_grid_point(points[k]);
+            double length2 = (b.x - a.x) * (b.x - a.x) + (b.z - a.z) * (b.z - a.z);
+            if (length2 > longest) {
+                longest = length2;
+                from = i;
+                to = k;
+            }
+        }
+    }
+    EnfVec3 a = enf_grid_point(points[from]), b = enf_grid_point(points[to]);
+    if (fabs(0.5 * twice) > 0.1 * longest) {
+        enf_text_put(&plan->svg, "<path class=\"hatch %s\" d=\"", portal_class(portal));
+        for (uint32_t i = 0; i < count; i++) {
+            EnfVec3 p = enf_grid_point(points[i]);
+            enf_text_put(&plan->svg, "%s%.2f %.2f", i ? "L" : "M", page_x(plan, storey, p.x), page_y(plan, storey, p.z));
+        }
+        enf_text_put(&plan->svg, "Z\"><title>");
+    } else {
+        enf_text_put(&plan->svg, "<path class=\"bar %s\" d=\"M%.2f %.2fL%.2f %.2f\"><title>", portal_class(portal),
+                     page_x(plan, storey, a.x), page_y(plan, storey, a.z), page_x(plan, storey, b.x),
+                     page_y(plan, storey, b.z));
+    }
+    enf_text_put_xml(&plan->svg, portal->name, strlen(portal->name));
+    enf_text_put(&plan->svg, "</title></path>\n");
+}
+
+static void put_portals(Plan *plan, uint32_t storey) {
+    const EnfLayout *layout = plan->layout;
+    for (uint32_t i = 0; i < layout->portal_count; i++) {
+        const EnfLayoutPortal *portal = &layout->portals[i];
+        bool here = is_shown(plan, portal->source) && plan->storey[portal->source] == storey;
+        /* Of twins on one storey, one is enough. */
+        bool twin_shown = portal->twin != ENF_NONE && portal->twin < i && is_shown(plan, portal->target) &&
+                          plan->storey[portal->target] == storey && !portal->has_transform;
+        if (here && portal->point_count >= 3 && !twin_shown) {
+            put_portal(plan, &plan->storeys.data[storey], portal);
+        }
+    }
+}
+
+/* ---- the page --------------------------------------------------------------------------------------------------- */
+
+static void put_head(Plan *plan, const char *title, uint32_t cells, uint32_t portals) {
+    enf_text_put(&plan->svg,
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n"
+                 "<style>\n"
+                 "text{font-family:'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#3a3833}\n"
+                 ".cell{fill-rule:nonzero;stroke:#3a3833;stroke-width:1.6;stroke-linejoin:round}\n"
+                 ".box{fill:#fff;fill-opacity:.3;stroke:#8a867c;stroke-width:1;stroke-dasharray:5 3}\n"
+                 ".thing{fill:#fff;fill-opacity:.45;stroke:#8a867c;stroke-width:.6;stroke-linejoin:round}\n"
+                 ".bar{stroke-width:4.5;stroke-linecap:round;fill:none}\n"
+                 ".hatch{stroke-width:1.2;stroke-dasharray:4 2.5;fill-opacity:.22}\n"
+                 ".open{stroke:#1c8c83;fill:#1c8c83}.shut{stroke:#b3402f;fill:#b3402f}.far{stroke:#5a4fa3;fill:#5a4fa3}\n"
+                 ".name{text-anchor:middle;paint-order:stroke;stroke:#fff;stroke-opacity:.55;stroke-width:2}\n"
+                 ".small{font-size:13px;fill:#6d695f}\n"
+                 "</style>\n<rect width=\"100%%\" height=\"100%%\" fill=\"#faf8f3\"/>\n"
+                 "<text x=\"%.0f\" y=\"46\" font-size=\"26\" font-weight=\"600\">",
+                 PAGE_WIDTH, plan->height, PAGE_WIDTH, plan->height, MARGIN);
+    enf_text_put_xml(&plan->svg, title, strlen(title));
+    enf_text_put(&plan->svg, "</text>\n<text class=\"small\" x=\"%.0f\" y=\"70\">%u cells, %u openings, %u %s</text>\n", MARGIN,
+                 cells, portals, plan->storeys.count, plan->storeys.count == 1 ? "storey" : "storeys");
+}
+
+/* The longest of 1, 2, 5 × 10ⁿ metres that takes at most 220 pixels. */
+static double scale_bar(double scale) {
+    static const double steps[] = {1, 2, 5};
+    double best = 0.1;
+    for (double power = 0.1; power < 1e5; power *= 10) {
+        for (int i = 0; i < 3; i++) {
+            best = steps[i] * power * scale <= 220 ? steps[i] * power : best;
+        }
+    }
+    return best;
+}
+
+static void put_legend(Plan *plan) {
+    static const struct {
+        const char *class, *text;
+    } rows[] = {{"open", "portal"}, {"shut", "portal, closed at start"}, {"far", "mirror or teleport"}};
+    double y = plan->height - LEGEND / 2, x = MARGIN, metres = scale_bar(plan->scale), length = metres * plan->scale;
+    enf_text_put(&plan->svg, "<path d=\"M%.2f %.2fv6h%.2fv-6\" fill=\"none\" stroke=\"#3a3833\" stroke-width=\"1.5\"/>\n", x,
+                 y - 6, length);
+    enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">%g m</text>\n", x + length + 8, y + 1, metres);
+    x += length + 90;
+    for (int i = 0; i < 3; i++) {
+        enf_text_put(&plan->svg, "<path class=\"bar %s\" d=\"M%.2f %.2fh26\"/>\n", rows[i].class, x, y - 3);
+        enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">%s</text>\n", x + 36, y + 1, rows[i].text);
+        x += 76 + 7.0 * (double)strlen(rows[i].text);
+    }
+    enf_text_put(&plan->svg, "<path class=\"hatch open\" d=\"M%.2f %.2fh26v12h-26Z\"/>\n", x, y - 9);
+    enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">opening in a floor or ceiling</text>\n", x + 36,
+                 y + 1);
+    enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.0f\" y=\"%.2f\" text-anchor=\"end\">north is −Z</text>\n</svg>\n",
+                 PAGE_WIDTH - MARGIN, y + 1);
+}
+
+static void put_storey(Plan *plan, uint32_t index) {
+    const Storey *storey = &plan->storeys.data[index];
+    enf_text_put(&plan->svg, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"15\" font-weight=\"600\">Storey %u</text>\n",
+                 storey->left, storey->top - 12, index + 1);
+    enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">floor from %.2f m</text>\n", storey->left + 86,
+                 storey->top - 12, storey->floor);
+    for (int pass = 0; pass < 2; pass++) {
+        for (uint32_t i = 0; i < plan->layout->cell_count; i++) {
+            if (is_shown(plan, i) && plan->storey[i] == index) {
+                put_cell(plan, i, pass == 1);
+            }
+        }
+        if (pass == 0) {
+            put_portals(plan, index);
+        }
+    }
+}
+
+static void put_page(Plan *plan, const char *title) {
+    uint32_t cells = 0, portals = 0;
+    for (uint32_t i = 0; i < plan->layout->cell_count; i++) {
+        cells += is_shown(plan, i);
+    }
+    for (uint32_t i = 0; i < plan->layout->portal_count; i++) {
+        const EnfLayoutPortal *portal = &plan->layout->portals[i];
+        portals += portal->point_count > 0 && (portal->twin == ENF_NONE || portal->twin >= i);
+    }
+    place_panels(plan);
+    put_head(plan, title, cells, portals);
+    for (uint32_t i = plan->storeys.count; i > 0; i--) {
+        put_storey(plan, i - 1);
+    }
+    put_legend(plan);
+}
+
+EnfResult enf_plan_write(const char *path, const char *title, const EnfLayout *layout, const EnfSoup *soup, EnfError *error) {
+    Plan plan;
+    memset(&plan, 0, sizeof plan);
+    plan.layout = layout;
+    plan.soup = soup;
+    EnfResult result = ENF_OK;
+    if (sort_triangles(&plan) && find_storeys(&plan) && choose_colors(&plan)) {
+        put_page(&plan, title);
+    } else {
+        plan.failed = true;
+    }
+    if (plan.failed || plan.svg.failed) {
+        result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory while drawing the plan");
+    } else {
+        result = enf_file_write(path, &(EnfSpan){plan.svg.data, plan.svg.count}, 1, error);
+    }
+    free(plan.svg.data);
+    free(plan.first);
+    free(plan.triangles);
+    free(plan.storey);
+    free(plan.color);
+    free(plan.storeys.data);
+    return result;
+}
