@@ -93,32 +93,30 @@ static bool push_openings(EnfLayoutWork *work) {
     return ok;
 }
 
-/* Counting sort by source cell: stable, so the order in the file is kept within a cell. */
-static bool sort_portals(EnfLayoutWork *work) {
-    uint32_t count = work->portals.count, cells = work->cells.count;
+bool enf_layout_sort_portals(EnfLayoutPortal *portals, uint32_t count, uint32_t cell_count) {
     uint32_t *place = enf_alloc(NULL, count, sizeof *place);
-    uint32_t *next = enf_alloc(NULL, (size_t)cells + 1, sizeof *next);
+    uint32_t *next = enf_alloc(NULL, (size_t)cell_count + 1, sizeof *next);
     EnfLayoutPortal *sorted = enf_alloc(NULL, count, sizeof *sorted);
     bool ok = next != NULL && (count == 0 || (place != NULL && sorted != NULL));
     for (uint32_t i = 0; ok && i < count; i++) {
-        next[work->portals.data[i].source + 1]++;
+        next[portals[i].source + 1]++;
     }
-    for (uint32_t c = 0; ok && c < cells; c++) {
+    for (uint32_t c = 0; ok && c < cell_count; c++) {
         next[c + 1] += next[c];
     }
     for (uint32_t i = 0; ok && i < count; i++) {
-        place[i] = next[work->portals.data[i].source]++;
+        place[i] = next[portals[i].source]++;
     }
     for (uint32_t i = 0; ok && i < count; i++) {
-        EnfLayoutPortal portal = work->portals.data[i];
+        EnfLayoutPortal portal = portals[i];
         portal.twin = portal.twin != ENF_NONE ? place[portal.twin] : ENF_NONE;
         sorted[place[i]] = portal;
     }
     if (ok && count > 0) {
-        memcpy(work->portals.data, sorted, count * sizeof *sorted);
+        memcpy(portals, sorted, count * sizeof *sorted);
     }
     enf_free(NULL, place, count, sizeof *place);
-    enf_free(NULL, next, (size_t)cells + 1, sizeof *next);
+    enf_free(NULL, next, (size_t)cell_count + 1, sizeof *next);
     enf_free(NULL, sorted, count, sizeof *sorted);
     return ok;
 }
@@ -239,7 +237,8 @@ static bool build(EnfLayoutWork *work) {
     bool ok = enf_layout_index_rooms(work) && enf_layout_bounds(work) && enf_layout_openings(work) && enf_layout_shells(work);
     if (ok) {
         enf_layout_link(work);
-        ok = push_openings(work) && link_nested(work) && sort_portals(work);
+        ok = push_openings(work) && link_nested(work) &&
+             enf_layout_sort_portals(work->portals.data, work->portals.count, work->cells.count);
     }
     return ok;
 }

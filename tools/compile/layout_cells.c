@@ -3,7 +3,6 @@
 #include "compile/layout_work.h"
 
 #include <float.h>
-#include <stdio.h>
 
 /* Suffix and the extras that outrank it. */
 static EnfRole role_of(const EnfSourceNode *node, const EnfNodeName *name, const EnfExtras *extras) {
@@ -76,15 +75,22 @@ bool enf_layout_roles(EnfLayoutWork *work) {
 
 /* ---- triangles ------------------------------------------------------------------------------------------------------------- */
 
-static bool same_text(const char *text, size_t length, const char *word) {
-    return enf_name_compare(text, length, word, strlen(word), true) == 0;
+/* Is the material's name `word`, perhaps with an ending after '.' or '_'? */
+static bool is_named(const EnfSource *source, uint32_t material, const char *word) {
+    const char *name = source->material_names != NULL ? source->material_names[material] : NULL;
+    size_t length = strlen(word);
+    if (name == NULL || strlen(name) < length || enf_name_compare(name, length, word, length, true) != 0) {
+        return false;
+    }
+    return name[length] == '\0' || name[length] == '.' || name[length] == '_';
 }
 
 bool enf_material_is_portal(const EnfSource *source, uint32_t material) {
-    const char *name = source->material_names != NULL ? source->material_names[material] : "";
-    const char *slash = name != NULL ? strrchr(name, '/') : NULL; /* "textures/editor/visportal" */
-    EnfNodeName parts = enf_node_name(slash != NULL ? slash + 1 : name != NULL ? name : "");
-    return same_text(parts.text, parts.whole, "visportal") || same_text(parts.text, parts.whole, "areaportal");
+    return is_named(source, material, "visportal") || is_named(source, material, "areaportal");
+}
+
+bool enf_material_is_open(const EnfSource *source, uint32_t material) {
+    return enf_material_is_portal(source, material) || is_named(source, material, "clip");
 }
 
 void enf_source_triangle(const EnfSourceNode *node, const EnfSourcePrimitive *primitive, uint32_t triangle, bool mirrored,

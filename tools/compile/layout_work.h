@@ -59,6 +59,8 @@ bool enf_layout_roles(EnfLayoutWork *work);
 bool enf_layout_bounds(EnfLayoutWork *work);
 /** Is material `material` one whose faces are portals (`visportal`, `areaportal`)? */
 bool enf_material_is_portal(const EnfSource *source, uint32_t material);
+/** Do its faces close nothing off: portals, and `clip`, which stops bodies only? */
+bool enf_material_is_open(const EnfSource *source, uint32_t material);
 /** A primitive's triangle in the world, its winding right for mirrored nodes. */
 void enf_source_triangle(const EnfSourceNode *node, const EnfSourcePrimitive *primitive, uint32_t triangle, bool mirrored,
                          EnfVec3 corners[3]);
@@ -99,6 +101,8 @@ static inline EnfVec3 enf_opening_normal(const EnfOpening *opening) {
 static inline const char *enf_opening_name(const EnfLayoutWork *work, const EnfOpening *opening) {
     return work->source->nodes[opening->node].name;
 }
+/** layout.c: orders half-portals by source cell, stably, and renumbers twins. @return false if memory is out. */
+bool enf_layout_sort_portals(EnfLayoutPortal *portals, uint32_t count, uint32_t cell_count);
 const char *enf_layout_cell_name(const EnfLayoutWork *work, uint32_t cell);
 /** Attaches the opening's polygon to the finding added last. */
 void enf_opening_show(EnfLayoutWork *work, const EnfOpening *opening);

@@ -326,3 +326,22 @@ bool enf_shell_inside(EnfShells *shells, uint32_t cell, EnfVec3 p, double depth,
     }
     return true;
 }
+
+bool enf_shell_open_to(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 normal) {
+    const EnfShell *shell = &shells->cells[cell];
+    uint32_t front = 0;
+    if (shell->bound_count > 0) {
+        return in_bound(shell, p, 0.0);
+    }
+    for (int i = 0; i < ENF_SHELL_RAYS; i++) {
+        EnfShellHit hit;
+        if (enf_dot(rays[i], normal) <= 0.0 || !enf_shell_ray(shells, cell, p, rays[i], 0.0, DBL_MAX / 4, &hit)) {
+            continue;
+        }
+        if (!hit.front) {
+            return false;
+        }
+        front++;
+    }
+    return front >= 2;
+}

@@ -63,4 +63,8 @@ bool enf_shell_near(const EnfShell *shell, const EnfVec3 *points, uint32_t count
  *  a back, and at most one nothing. */
 bool enf_shell_inside(EnfShells *shells, uint32_t cell, EnfVec3 p, double depth, bool sure);
 
+/** Do rays from p into the half-space along `normal` see fronts of the cell: two of three at least, and no back? By the bound where
+ *  there is one. For the neighbourhood of a surface that itself closes the other half. */
+bool enf_shell_open_to(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 normal);
+
 #endif
