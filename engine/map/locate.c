@@ -3,11 +3,13 @@
  * A `-bound` decides by its planes. Else a few rays ask what they meet first: the front of a shell or the opening of a portal
  * from within is "inside", their backs "outside"; a leak misleads some rays but not most. */
 #include "map/map_internal.h"
+#include <enfilade/tolerances.h>
 
 #include <math.h>
 #include <string.h>
 
-/* No axis, no diagonal, no two opposite: a ray along a wall or through an edge decides nothing well. An odd number. */
+/* No axis, no diagonal, no two opposite: a ray along a wall or through an edge decides nothing well. An odd number, each a metre
+ * long or nearly, so that a parameter is a distance. */
 static const EnfVec3 probes[] = {{0.57735, 0.71934, 0.38621},
                                  {-0.82311, 0.31172, 0.47443},
                                  {0.27413, -0.63177, 0.72514},
@@ -54,7 +56,8 @@ static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
            (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED));
 }
 
-/* The nearest opening of the cell before *t: from within, a ray leaves by it along its normal. */
+/* The nearest opening of the cell before *t: from within, a ray leaves by it along its normal. A point on an opening is in both
+ * cells, whatever rounding made of it: the ray that leaves counts from a little behind, the one that enters only from beyond. */
 static void probe_portals(const EnfMap *map, uint32_t cell, EnfVec3 local, EnfVec3 direction, double *t, bool *inside) {
     const EnfCell *c = &map->cells[cell];
     EnfMapRay ray;
@@ -65,9 +68,13 @@ static void probe_portals(const EnfMap *map, uint32_t cell, EnfVec3 local, EnfVe
             EnfVec3 v1 = enf_sub(enf_map_portal_vertex(map, p, i - 1), local);
             EnfVec3 v2 = enf_sub(enf_map_portal_vertex(map, p, i), local);
             double at;
-            if (enf_map_ray_triangle(&ray, v0, v1, v2, &at) && at < *t) {
+            if (!enf_map_ray_triangle(&ray, v0, v1, v2, &at) || at >= *t) {
+                continue;
+            }
+            bool leaves = enf_dot(enf_cross(enf_sub(v1, v0), enf_sub(v2, v0)), direction) > 0.0;
+            if (at >= (leaves ? -ENF_TOL_ROUNDING : ENF_TOL_ROUNDING)) {
                 *t = at;
-                *inside = enf_dot(enf_cross(enf_sub(v1, v0), enf_sub(v2, v0)), direction) > 0.0;
+                *inside = leaves;
             }
         }
     }
@@ -87,8 +94,12 @@ static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 directi
 }
 
 static bool within_bounds(const EnfCell *cell, EnfVec3 local) {
-    return local.x >= (double)cell->min[0] && local.x <= (double)cell->max[0] && local.y >= (double)cell->min[1] &&
-           local.y <= (double)cell->max[1] && local.z >= (double)cell->min[2] && local.z <= (double)cell->max[2];
+    const double p[3] = {local.x, local.y, local.z}, e = ENF_TOL_ROUNDING;
+    bool within = true;
+    for (int axis = 0; axis < 3; axis++) {
+        within = within && p[axis] >= (double)cell->min[axis] - e && p[axis] <= (double)cell->max[axis] + e;
+    }
+    return within;
 }
 
 bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
@@ -147,7 +158,8 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
     }
     EnfKdTree tree = {map->cell_nodes, map->cell_blocks, map->cell_nodes_count, map->cell_blocks_count};
     EnfVec3 p = enf_sub(p_ws, enf_v3(map->tree_origin[0], map->tree_origin[1], map->tree_origin[2]));
-    EnfBox3 point = {p, p};
+    const EnfVec3 e = {ENF_TOL_ROUNDING, ENF_TOL_ROUNDING, ENF_TOL_ROUNDING};
+    EnfBox3 point = {enf_sub(p, e), enf_add(p, e)};
     uint32_t candidates[CANDIDATES_MAX];
     uint32_t count = enf_kd_overlap(&tree, enf_box3f_outward(point), candidates, CANDIDATES_MAX);
     const bool all = count > CANDIDATES_MAX; /* a pile of cells: ask every one */

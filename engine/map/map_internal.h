@@ -92,8 +92,8 @@ typedef struct EnfMapRay {
 
 /** False for a zero or non-finite direction. */
 bool enf_map_ray_make(EnfMapRay *ray, EnfVec3 direction);
-/** The parameter t >= 0 at which the ray from 0 meets triangle `abc` (relative to its start), edges and corners included; false if
- *  it does not, or lies in its plane. */
+/** The parameter at which the line through 0 meets triangle `abc` (relative to the ray's start), edges and corners included; it is
+ *  negative behind the start. False if it does not meet it, or lies in its plane. */
 bool enf_map_ray_triangle(const EnfMapRay *ray, EnfVec3 a, EnfVec3 b, EnfVec3 c, double *t);
 /** Corner `k` of triangle `triangle` of a cluster, relative to the home cell's origin. */
 EnfVec3 enf_map_corner(const EnfMap *map, const EnfCluster *cluster, uint32_t triangle, uint32_t k);

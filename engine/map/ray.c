@@ -42,7 +42,7 @@ bool enf_map_ray_triangle(const EnfMapRay *ray, EnfVec3 a, EnfVec3 b, EnfVec3 c,
         return false;
     }
     *t = (u * z[0] + v * z[1] + w * z[2]) / det;
-    return *t >= 0.0;
+    return true;
 }
 
 EnfVec3 enf_map_corner(const EnfMap *map, const EnfCluster *cluster, uint32_t triangle, uint32_t k) {
@@ -73,7 +73,7 @@ static double search_cluster(void *user, uint32_t index, double t_max) {
         EnfVec3 b = enf_sub(enf_map_corner(s->map, cluster, i, 1), from);
         EnfVec3 c = enf_sub(enf_map_corner(s->map, cluster, i, 2), from);
         double t;
-        if (!enf_map_ray_triangle(&s->ray, a, b, c, &t) || t > t_max) {
+        if (!enf_map_ray_triangle(&s->ray, a, b, c, &t) || t < 0.0 || t > t_max) {
             continue;
         }
         /* Equally near: the lower number, so that the answer does not depend on the order of the tree. */

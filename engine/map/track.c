@@ -14,7 +14,7 @@ enum { CROSSINGS_MAX = 1024 };
 /* A step in the space of the cell that it has reached. */
 typedef struct Step {
     EnfVec3 from, to;
-    double t; /* how much of it is behind */
+    double t; /* how much of it is surely behind */
 } Step;
 
 /* The polygon that decides for a half-portal: its own, or its twin's where that one comes first. */
@@ -44,36 +44,54 @@ static double side(const Gate *gate, EnfVec3 p) {
     return enf_dot(gate->plane.n, enf_sub(p, gate->points[0]));
 }
 
-/* Does the line of the step pass through the polygon? By the sides of its edges, closed: two portals that share an edge leave no
- * gap between them. */
-static bool passes_through(const Gate *gate, const Step *step) {
-    EnfVec3 direction = enf_sub(step->to, step->from);
-    bool left = false, right = false;
-    for (uint32_t i = 0; i < gate->count; i++) {
-        EnfVec3 a = enf_sub(gate->points[i], step->from);
-        EnfVec3 b = enf_sub(gate->points[(i + 1) % gate->count], step->from);
-        double volume = enf_dot(enf_cross(a, b), direction);
-        left = left || volume > 0.0;
-        right = right || volume < 0.0;
-    }
-    return !(left && right);
+/* Where a step leaves through a half-portal. */
+typedef struct Crossing {
+    double t, doubt; /* the part of the step at which, and how far rounding may have moved it */
+    double margin;   /* metres within the border; a little less than 0 on it */
+} Crossing;
+
+static double component(EnfVec3 v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* The part of the step at which it leaves through the half-portal, or more than 1. */
-static double leaves_at(const EnfMap *map, uint32_t portal, const Step *step) {
+/* How far inside the polygon's border a point of its plane lies, seen along the axis that the plane faces most: that shortens
+ * distances by less than half. */
+static double margin_of(const Gate *gate, EnfVec3 p) {
+    EnfVec3 n = gate->plane.n;
+    int axis = fabs(n.x) > fabs(n.y) ? (fabs(n.x) > fabs(n.z) ? 0 : 2) : (fabs(n.y) > fabs(n.z) ? 1 : 2);
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    double turn = component(n, axis) > 0.0 ? 1.0 : -1.0, margin = HUGE_VAL;
+    for (uint32_t i = 0; i < gate->count; i++) {
+        EnfVec3 a = gate->points[i], along = enf_sub(gate->points[(i + 1) % gate->count], a), to = enf_sub(p, a);
+        double du = component(along, u), dv = component(along, v), length = sqrt(du * du + dv * dv);
+        if (length > 0.0) {
+            double inside = turn * (du * component(to, v) - dv * component(to, u)) / length;
+            margin = inside < margin ? inside : margin;
+        }
+    }
+    return margin;
+}
+
+/* Does the step leave its cell through the half-portal? */
+static bool leaves_by(const EnfMap *map, uint32_t portal, const Step *step, Crossing *out) {
     if (map->portals[portal].flags & (ENF_PORTAL_OVERLAP | ENF_PORTAL_MIRROR)) {
-        return 2.0; /* nobody walks through a mirror, and an overlap has no border */
+        return false; /* nobody walks through a mirror, and an overlap has no border */
     }
     Gate gate = gate_of(map, portal);
     double before = side(&gate, step->from), after = side(&gate, step->to);
     /* Arriving through a transform rounds: an eye that it left on the wrong side by that much may go back. */
-    double slack = map->portals[portal].transform == ENF_NONE ? 0.0 : 0x1p12 * ENF_TOL_RIGID;
+    double slack = map->portals[portal].transform == ENF_NONE ? 0.0 : ENF_TOL_ROUNDING;
     bool leaves = gate.turned ? before > 0.0 && after <= 0.0 : before <= slack && after > 0.0 && after > before;
-    if (!leaves || !passes_through(&gate, step)) {
-        return 2.0;
+    if (!leaves) {
+        return false;
     }
+    EnfVec3 a = enf_sub(step->from, gate.points[0]), b = enf_sub(step->to, gate.points[0]);
     double t = before / (before - after);
-    return t > 0.0 ? t : 0.0;
+    out->t = t > 0.0 ? t : 0.0;
+    /* A side is off by a few roundings of the distances that it is made of; a step along the plane makes much of that. */
+    out->doubt = 0x1p-49 * (sqrt(enf_dot(a, a)) + sqrt(enf_dot(b, b))) / fabs(before - after) + 0x1p-49;
+    out->margin = margin_of(&gate, enf_add(step->from, enf_scale(enf_sub(step->to, step->from), out->t)));
+    return out->margin >= -ENF_TOL_ROUNDING;
 }
 
 static EnfVec3 through(const EnfTransform *transform, EnfVec3 p) {
@@ -85,20 +103,26 @@ static EnfVec3 through(const EnfTransform *transform, EnfVec3 p) {
     return enf_affine_point(&a, p);
 }
 
-/* The first portal of `cell` that the rest of the step leaves by, but not `back`: the way it came in by. */
+/* The first portal of `cell` that the rest of the step leaves by, but not `back`: the way it came in by. Of two at one place (they
+ * share an edge), the one that it is farther within. */
 static uint32_t next_portal(const EnfMap *map, uint32_t cell, Step *step, uint32_t back) {
     const EnfCell *c = &map->cells[cell];
-    const double now = step->t - 16.0 * 0x1p-52; /* two quotients of the same place may differ by their rounding */
     uint32_t best = ENF_NONE;
-    double best_t = 1.0;
+    Crossing first = {2.0, 0.0, 0.0};
     for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
-        double t = p == back ? 2.0 : leaves_at(map, p, step);
-        if (t >= now && (t < best_t || (t == best_t && best == ENF_NONE))) {
+        Crossing at;
+        if (p == back || !leaves_by(map, p, step, &at) || at.t + at.doubt < step->t) {
+            continue;
+        }
+        double apart = at.t - first.t, doubt = at.doubt + first.doubt;
+        if (apart < -doubt || (apart <= doubt && at.margin > first.margin) || best == ENF_NONE) {
             best = p;
-            best_t = t;
+            first = at;
         }
     }
-    step->t = best_t > step->t ? best_t : step->t;
+    if (best != ENF_NONE && first.t - first.doubt > step->t) {
+        step->t = first.t - first.doubt;
+    }
     return best;
 }
 

@@ -33,6 +33,11 @@
  *  grid step. A matrix read in float32 must be orthonormalised first. Pinned by tests/unit/test_map. */
 #define ENF_TOL_RIGID 0x1p-40
 
+/** How far, in metres, rounding moves a point that was computed in double: 32 roundings of a coordinate of 2^20 m. Points this
+ *  close to a portal are on both sides of it where a point is located, and within its border where a step crosses it; the side of a
+ *  step's ends is decided without it. Pinned by tests/property/test_locate and test_track. */
+#define ENF_TOL_ROUNDING 0x1p-28
+
 /** Windows are fixed point with this many steps a pixel. */
 #define ENF_WINDOW_STEPS 16
 
