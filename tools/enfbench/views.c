@@ -126,7 +126,7 @@ static bool with_scene(BenchRun *run, const SceneFiles *files, uint32_t frames, 
     BenchScene scene;
     memset(&scene, 0, sizeof scene);
     const char *base = strrchr(files->path, '/');
-    snprintf(scene.name, sizeof scene.name, "%s", base == NULL ? files->path : base + 1);
+    snprintf(scene.name, sizeof scene.name, "%.63s", base == NULL ? files->path : base + 1);
     char *dot = strrchr(scene.name, '.');
     if (dot != NULL) {
         *dot = '\0';
