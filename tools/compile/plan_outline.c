@@ -3,6 +3,7 @@
 #include "compile/plan_outline.h"
 
 #include "compile/exact.h"
+#include "compile/plan_storeys.h"
 
 #include <enfilade/tolerances.h>
 #include <math.h>
@@ -12,7 +13,7 @@
 /* Loops smaller than this (square metres) are clutter. */
 #define AREA_MIN 0.02
 /* With this many loops, only those of the size of a table or more are drawn. */
-enum { LOOPS_MANY = 150 };
+enum { LOOPS_MANY = 150, LABELS_TRIED = 64 };
 #define AREA_MIN_MANY 0.3
 
 typedef struct Flat {
@@ -53,19 +54,11 @@ static int compare_starts(const void *left, const void *right) {
 
 /* ---- edges ------------------------------------------------------------------------------------------------------ */
 
-/* Does the triangle face up, more or less? */
-static bool faces_up(const EnfSoup *soup, const EnfSoupTriangle *t) {
-    EnfVec3 a = enf_grid_point(soup->vertices[t->v[0]].p);
-    EnfVec3 n = enf_cross(enf_sub(enf_grid_point(soup->vertices[t->v[1]].p), a),
-                          enf_sub(enf_grid_point(soup->vertices[t->v[2]].p), a));
-    return n.y > 0.3 * enf_length(n);
-}
-
 static uint32_t find_edges(const EnfSoup *soup, const uint32_t *triangles, uint32_t count, FlatEdge *edges) {
     uint32_t made = 0;
     for (uint32_t i = 0; i < count; i++) {
         const EnfSoupTriangle *t = &soup->triangles[triangles[i]];
-        for (int corner = 0; corner < 3 && faces_up(soup, t); corner++) {
+        for (int corner = 0; corner < 3 && enf_plan_faces_up(soup, triangles[i]); corner++) {
             EnfGrid3 a = soup->vertices[t->v[corner]].p, b = soup->vertices[t->v[(corner + 1) % 3]].p;
             FlatEdge edge = {{a.x, a.z}, {b.x, b.z}, false};
             if (compare_flat(edge.from, edge.to) != 0) {
@@ -200,9 +193,27 @@ static void sort_loops(EnfPlanOutline *outline) {
 
 /* ---- the label -------------------------------------------------------------------------------------------------- */
 
-/* The middle of the largest loop if that is inside it, else the middle of its largest triangle. */
-static void place_label(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
-    const EnfPlanLoop *loop = &outline->loops.data[0];
+/* Metres from `p` to the nearest border; negative if it is not on the floor. */
+static double clearance(const EnfPlanOutline *outline, EnfPlanPoint p) {
+    double nearest = 1e300;
+    bool in = point_inside(outline, &outline->loops.data[0], p);
+    for (uint32_t i = 0; i < outline->loops.count && in; i++) {
+        const EnfPlanLoop *loop = &outline->loops.data[i];
+        in = loop->area > 0 || !point_inside(outline, loop, p);
+        for (uint32_t k = 0; k < loop->point_count && !loop->inner; k++) {
+            EnfPlanPoint a = outline->points.data[loop->point_first + k];
+            EnfPlanPoint b = outline->points.data[loop->point_first + (k + 1) % loop->point_count];
+            double dx = b.x - a.x, dz = b.z - a.z, length2 = dx * dx + dz * dz;
+            double t = length2 > 0 ? ((p.x - a.x) * dx + (p.z - a.z) * dz) / length2 : 0;
+            t = t < 0 ? 0 : t > 1 ? 1 : t;
+            double x = a.x + t * dx - p.x, z = a.z + t * dz - p.z;
+            nearest = fmin(nearest, x * x + z * z);
+        }
+    }
+    return in ? sqrt(nearest) : -1;
+}
+
+static EnfPlanPoint centroid(const EnfPlanOutline *outline, const EnfPlanLoop *loop) {
     double x = 0, z = 0, twice = 0;
     for (uint32_t i = 0; i < loop->point_count; i++) {
         EnfPlanPoint a = outline->points.data[loop->point_first + i];
@@ -212,20 +223,26 @@ static void place_label(EnfPlanOutline *outline, const EnfSoup *soup, const uint
         x += (a.x + b.x) * cross;
         z += (a.z + b.z) * cross;
     }
-    outline->label = (EnfPlanPoint){x / (3 * twice), z / (3 * twice)};
-    bool inside = point_inside(outline, loop, outline->label);
-    for (uint32_t i = 1; i < outline->loops.count && inside; i++) {
-        inside = outline->loops.data[i].area > 0 || !point_inside(outline, &outline->loops.data[i], outline->label);
-    }
-    double largest = 0;
-    for (uint32_t i = 0; i < count && !inside; i++) {
+    return (EnfPlanPoint){x / (3 * twice), z / (3 * twice)};
+}
+
+/* The middle of the largest loop, unless a triangle's middle is clearly farther from every border: rooms are not convex. */
+static void place_label(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
+    outline->label = centroid(outline, &outline->loops.data[0]);
+    double best = 1.5 * clearance(outline, outline->label);
+    for (uint32_t i = 0, tried = 0; i < count && tried < LABELS_TRIED; i++) {
+        if (!enf_plan_faces_up(soup, triangles[i])) {
+            continue;
+        }
         const EnfSoupTriangle *t = &soup->triangles[triangles[i]];
         EnfVec3 a = enf_grid_point(soup->vertices[t->v[0]].p), b = enf_grid_point(soup->vertices[t->v[1]].p);
         EnfVec3 c = enf_grid_point(soup->vertices[t->v[2]].p);
-        double up = enf_cross(enf_sub(b, a), enf_sub(c, a)).y;
-        if (up > largest) {
-            largest = up;
-            outline->label = (EnfPlanPoint){(a.x + b.x + c.x) / 3, (a.z + b.z + c.z) / 3};
+        EnfPlanPoint middle = {(a.x + b.x + c.x) / 3, (a.z + b.z + c.z) / 3};
+        double clear = clearance(outline, middle);
+        tried++;
+        if (clear > best) {
+            best = clear;
+            outline->label = middle;
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "compile/exact.h"
 #include "compile/names.h"
 #include "compile/plan_outline.h"
+#include "compile/plan_storeys.h"
 #include "compile/text.h"
 
 #include <math.h>
@@ -19,9 +20,6 @@
 #define LEGEND 64.0
 #define FONT_MAX 15.0
 #define FONT_MIN 3.0
-
-/* Floors whose heights (metres) part by more than this belong to different storeys. */
-#define STOREY_GAP 1.5
 
 static const char *const palette[] = {"#f3d9c6", "#d5e5d2", "#d3e1ee", "#efe3b8", "#e5d6e8", "#cfe6e3",
                                       "#f2d3d3", "#dfe3c3", "#dcdcf0", "#f0dcb9", "#d9e9c9", "#ead7d0"};
@@ -83,57 +81,33 @@ static bool sort_triangles(Plan *plan) {
     return true;
 }
 
-typedef struct Floor {
-    int64_t y;
-    uint32_t cell;
-} Floor;
-
-static int compare_floors(const void *left, const void *right) {
-    const Floor *a = left, *b = right;
-    if (a->y != b->y) {
-        return a->y < b->y ? -1 : 1;
-    }
-    return (a->cell > b->cell) - (a->cell < b->cell);
-}
-
 static void extend(Storey *storey, const EnfLayoutCell *cell) {
     EnfVec3 low = low_corner(cell), high = high_corner(cell);
+    storey->floor = fmin(storey->floor, low.y);
     storey->min_x = fmin(storey->min_x, low.x);
     storey->min_z = fmin(storey->min_z, low.z);
     storey->max_x = fmax(storey->max_x, high.x);
     storey->max_z = fmax(storey->max_z, high.z);
 }
 
-/* Groups cells whose floors follow one another without a gap. */
+/* A panel for each storey. */
 static bool find_storeys(Plan *plan) {
-    const EnfLayout *layout = plan->layout;
-    Floor *floors = malloc(((size_t)layout->cell_count + 1) * sizeof *floors);
-    plan->storey = calloc((size_t)layout->cell_count + 1, sizeof *plan->storey);
-    uint32_t count = 0;
-    bool ok = floors && plan->storey;
-    for (uint32_t i = 0; i < layout->cell_count && ok; i++) {
+    plan->storey = calloc((size_t)plan->layout->cell_count + 1, sizeof *plan->storey);
+    EnfPlanCells cells = {plan->layout, plan->soup, plan->first, plan->triangles};
+    uint32_t count;
+    if (!plan->storey || !enf_plan_storeys(&cells, plan->storey, &count) || !ENF_ARRAY_ROOM(&plan->storeys, count)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        plan->storeys.data[i] = (Storey){1e300, 1e300, 1e300, -1e300, -1e300, 0, 0};
+    }
+    plan->storeys.count = count;
+    for (uint32_t i = 0; i < plan->layout->cell_count; i++) {
         if (is_shown(plan, i)) {
-            floors[count++] = (Floor){layout->cells[i].min.y, i};
+            extend(&plan->storeys.data[plan->storey[i]], &plan->layout->cells[i]);
         }
     }
-    if (ok) {
-        qsort(floors, count, sizeof *floors, compare_floors);
-    }
-    for (uint32_t i = 0; i < count && ok; i++) {
-        double y = low_corner(&layout->cells[floors[i].cell]).y;
-        bool next = i == 0 || y - low_corner(&layout->cells[floors[i - 1].cell]).y > STOREY_GAP;
-        if (next) {
-            ok = ENF_ARRAY_ROOM(&plan->storeys, 1);
-            if (!ok) {
-                break;
-            }
-            plan->storeys.data[plan->storeys.count++] = (Storey){y, 1e300, 1e300, -1e300, -1e300, 0, 0};
-        }
-        plan->storey[floors[i].cell] = plan->storeys.count - 1;
-        extend(&plan->storeys.data[plan->storeys.count - 1], &layout->cells[floors[i].cell]);
-    }
-    free(floors);
-    return ok;
+    return true;
 }
 
 /* Scale and places of the panels: one column, or two where the storeys are narrow. */
@@ -267,8 +241,26 @@ static void put_cell(Plan *plan, uint32_t index, bool names) {
 
 /* ---- portals ---------------------------------------------------------------------------------------------------- */
 
-static const char *portal_class(const EnfLayoutPortal *portal) {
-    return portal->has_transform ? "far" : portal->flags & ENF_PORTAL_CLOSED ? "shut" : "open";
+/* What kinds of portal there are: a colour each. Attributes are written out, because not every viewer reads style sheets. */
+typedef enum Kind { KIND_OPEN, KIND_SHUT, KIND_FAR, KIND_COUNT } Kind;
+static const struct {
+    const char *color, *text;
+} kinds[KIND_COUNT] = {{"#1c8c83", "portal"}, {"#b3402f", "portal, closed at start"}, {"#5a4fa3", "mirror or teleport"}};
+
+static Kind kind_of(const EnfLayoutPortal *portal) {
+    return portal->has_transform ? KIND_FAR : portal->flags & ENF_PORTAL_CLOSED ? KIND_SHUT : KIND_OPEN;
+}
+
+/* Begins a path: a bar, or the area of an opening that is not upright. */
+static void begin_path(Plan *plan, Kind kind, bool area) {
+    if (area) {
+        enf_text_put(&plan->svg,
+                     "<path fill=\"%s\" fill-opacity=\"0.22\" stroke=\"%s\" stroke-width=\"1.2\" stroke-dasharray=\"4 2.5\"",
+                     kinds[kind].color, kinds[kind].color);
+    } else {
+        enf_text_put(&plan->svg, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"4.5\" stroke-linecap=\"round\"",
+                     kinds[kind].color);
+    }
 }
 
 /* An upright portal is a bar between its two ends in the plan; others show their area. */
@@ -291,16 +283,17 @@ static void put_portal(Plan *plan, const Storey *storey, const EnfLayoutPortal *
     }
     EnfVec3 a = enf_grid_point(points[from]), b = enf_grid_point(points[to]);
     if (fabs(0.5 * twice) > 0.1 * longest) {
-        enf_text_put(&plan->svg, "<path class=\"hatch %s\" d=\"", portal_class(portal));
+        begin_path(plan, kind_of(portal), true);
+        enf_text_put(&plan->svg, " d=\"");
         for (uint32_t i = 0; i < count; i++) {
             EnfVec3 p = enf_grid_point(points[i]);
             enf_text_put(&plan->svg, "%s%.2f %.2f", i ? "L" : "M", page_x(plan, storey, p.x), page_y(plan, storey, p.z));
         }
         enf_text_put(&plan->svg, "Z\"><title>");
     } else {
-        enf_text_put(&plan->svg, "<path class=\"bar %s\" d=\"M%.2f %.2fL%.2f %.2f\"><title>", portal_class(portal),
-                     page_x(plan, storey, a.x), page_y(plan, storey, a.z), page_x(plan, storey, b.x),
-                     page_y(plan, storey, b.z));
+        begin_path(plan, kind_of(portal), false);
+        enf_text_put(&plan->svg, " d=\"M%.2f %.2fL%.2f %.2f\"><title>", page_x(plan, storey, a.x), page_y(plan, storey, a.z),
+                     page_x(plan, storey, b.x), page_y(plan, storey, b.z));
     }
     enf_text_put_xml(&plan->svg, portal->name, strlen(portal->name));
     enf_text_put(&plan->svg, "</title></path>\n");
@@ -330,10 +323,7 @@ static void put_head(Plan *plan, const char *title, uint32_t cells, uint32_t por
                  ".cell{fill-rule:nonzero;stroke:#3a3833;stroke-width:1.6;stroke-linejoin:round}\n"
                  ".box{fill:#fff;fill-opacity:.3;stroke:#8a867c;stroke-width:1;stroke-dasharray:5 3}\n"
                  ".thing{fill:#fff;fill-opacity:.45;stroke:#8a867c;stroke-width:.6;stroke-linejoin:round}\n"
-                 ".bar{stroke-width:4.5;stroke-linecap:round;fill:none}\n"
-                 ".hatch{stroke-width:1.2;stroke-dasharray:4 2.5;fill-opacity:.22}\n"
-                 ".open{stroke:#1c8c83;fill:#1c8c83}.shut{stroke:#b3402f;fill:#b3402f}.far{stroke:#5a4fa3;fill:#5a4fa3}\n"
-                 ".name{text-anchor:middle;paint-order:stroke;stroke:#fff;stroke-opacity:.55;stroke-width:2}\n"
+                 ".name{text-anchor:middle}\n"
                  ".small{font-size:13px;fill:#6d695f}\n"
                  "</style>\n<rect width=\"100%%\" height=\"100%%\" fill=\"#faf8f3\"/>\n"
                  "<text x=\"%.0f\" y=\"46\" font-size=\"26\" font-weight=\"600\">",
@@ -356,20 +346,19 @@ static double scale_bar(double scale) {
 }
 
 static void put_legend(Plan *plan) {
-    static const struct {
-        const char *class, *text;
-    } rows[] = {{"open", "portal"}, {"shut", "portal, closed at start"}, {"far", "mirror or teleport"}};
     double y = plan->height - LEGEND / 2, x = MARGIN, metres = scale_bar(plan->scale), length = metres * plan->scale;
     enf_text_put(&plan->svg, "<path d=\"M%.2f %.2fv6h%.2fv-6\" fill=\"none\" stroke=\"#3a3833\" stroke-width=\"1.5\"/>\n", x,
                  y - 6, length);
     enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">%g m</text>\n", x + length + 8, y + 1, metres);
     x += length + 90;
-    for (int i = 0; i < 3; i++) {
-        enf_text_put(&plan->svg, "<path class=\"bar %s\" d=\"M%.2f %.2fh26\"/>\n", rows[i].class, x, y - 3);
-        enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">%s</text>\n", x + 36, y + 1, rows[i].text);
-        x += 76 + 7.0 * (double)strlen(rows[i].text);
+    for (int i = 0; i < KIND_COUNT; i++) {
+        begin_path(plan, (Kind)i, false);
+        enf_text_put(&plan->svg, " d=\"M%.2f %.2fh26\"/>\n", x, y - 3);
+        enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">%s</text>\n", x + 36, y + 1, kinds[i].text);
+        x += 76 + 7.0 * (double)strlen(kinds[i].text);
     }
-    enf_text_put(&plan->svg, "<path class=\"hatch open\" d=\"M%.2f %.2fh26v12h-26Z\"/>\n", x, y - 9);
+    begin_path(plan, KIND_OPEN, true);
+    enf_text_put(&plan->svg, " d=\"M%.2f %.2fh26v12h-26Z\"/>\n", x, y - 9);
     enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.2f\" y=\"%.2f\">opening in a floor or ceiling</text>\n", x + 36,
                  y + 1);
     enf_text_put(&plan->svg, "<text class=\"small\" x=\"%.0f\" y=\"%.2f\" text-anchor=\"end\">north is −Z</text>\n</svg>\n",
