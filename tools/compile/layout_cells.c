@@ -93,6 +93,10 @@ bool enf_material_is_open(const EnfSource *source, uint32_t material) {
     return enf_material_is_portal(source, material) || is_named(source, material, "clip");
 }
 
+bool enf_material_seals(const EnfSource *source, uint32_t material) {
+    return source->materials[material].alpha_mode == ENF_ALPHA_OPAQUE && !enf_material_is_open(source, material);
+}
+
 void enf_source_triangle(const EnfSourceNode *node, const EnfSourcePrimitive *primitive, uint32_t triangle, bool mirrored,
                          EnfVec3 corners[3]) {
     for (uint32_t k = 0; k < 3; k++) {

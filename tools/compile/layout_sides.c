@@ -14,7 +14,7 @@ static bool gather(SourceTriangles *out, const EnfSource *source, const EnfSourc
     bool mirrored = enf_affine_det(&node->world) < 0.0;
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const EnfSourcePrimitive *primitive = &source->primitives[mesh->primitive_first + i];
-        if (enf_material_is_open(source, primitive->material)) {
+        if (!enf_material_seals(source, primitive->material)) {
             continue;
         }
         if (!ENF_ARRAY_ROOM(&out->corners, primitive->index_count) || !ENF_ARRAY_ROOM(&out->cells, primitive->index_count / 3)) {

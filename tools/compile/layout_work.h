@@ -59,8 +59,10 @@ bool enf_layout_roles(EnfLayoutWork *work);
 bool enf_layout_bounds(EnfLayoutWork *work);
 /** Is material `material` one whose faces are portals (`visportal`, `areaportal`)? */
 bool enf_material_is_portal(const EnfSource *source, uint32_t material);
-/** Do its faces close nothing off: portals, and `clip`, which stops bodies only? */
+/** Are its faces no surfaces at all: portals, and `clip`, which stops bodies only? They are not drawn and close nothing off. */
 bool enf_material_is_open(const EnfSource *source, uint32_t material);
+/** Can nobody see through its faces (gratings and panes do not seal)? */
+bool enf_material_seals(const EnfSource *source, uint32_t material);
 /** A primitive's triangle in the world, its winding right for mirrored nodes. */
 void enf_source_triangle(const EnfSourceNode *node, const EnfSourcePrimitive *primitive, uint32_t triangle, bool mirrored,
                          EnfVec3 corners[3]);

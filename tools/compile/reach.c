@@ -121,12 +121,33 @@ static uint32_t clip_to_gate(const EnfReach *reach, uint32_t p, const EnfVec3 tr
     return count;
 }
 
-/* Straddling the plane within the polygon (its rim included: a floor runs on under a door), or lying in the plane within it (its rim
- * excluded: the wall around ends there). */
+/* What is left of a triangle over the gate: does it lie on both sides, and how long is the cut in the gate's plane? */
+static bool is_cut(const Gate *gate, const EnfVec3 *part, uint32_t count, double *length) {
+    bool behind = false, ahead = false;
+    EnfVec3 ends[ENF_CLIP_MAX];
+    uint32_t end_count = 0;
+    *length = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        EnfVec3 a = part[i], b = part[(i + 1) % count];
+        double da = enf_dot(gate->normal, a) + gate->d, db = enf_dot(gate->normal, b) + gate->d;
+        behind = behind || da < -SURFACE;
+        ahead = ahead || da > SURFACE;
+        if ((da <= 0.0) != (db <= 0.0)) {
+            ends[end_count++] = enf_add(a, enf_scale(enf_sub(b, a), da / (da - db)));
+        }
+    }
+    if (end_count == 2) {
+        *length = enf_length(enf_sub(ends[1], ends[0]));
+    }
+    return behind && ahead;
+}
+
+/* A triangle passes if it straddles the plane within the polygon, or runs through it along the rim (a floor under a door; a touched
+ * corner is not enough), or lies flat in the opening like a shut door (the wall around it only touches the rim). */
 static bool triangle_passes(const EnfReach *reach, uint32_t p, const EnfVec3 triangle[3]) {
     const Gate *gate = &reach->gates[p];
     EnfVec3 part[ENF_CLIP_MAX];
-    double low = 1e300, high = -1e300;
+    double low = 1e300, high = -1e300, length;
     for (int k = 0; k < 3; k++) {
         double d = enf_dot(gate->normal, triangle[k]) + gate->d;
         low = d < low ? d : low;
@@ -136,17 +157,12 @@ static bool triangle_passes(const EnfReach *reach, uint32_t p, const EnfVec3 tri
     if (!flat && (low >= -SURFACE || high <= SURFACE)) {
         return false;
     }
-    uint32_t count = clip_to_gate(reach, p, triangle, flat ? -SURFACE : SURFACE, part);
-    if (flat) {
+    uint32_t count = clip_to_gate(reach, p, triangle, -SURFACE, part);
+    if (flat || is_cut(gate, part, count, &length)) {
         return count >= 3;
     }
-    bool behind = false, ahead = false;
-    for (uint32_t i = 0; i < count; i++) {
-        double d = enf_dot(gate->normal, part[i]) + gate->d;
-        behind = behind || d < -SURFACE;
-        ahead = ahead || d > SURFACE;
-    }
-    return behind && ahead;
+    count = clip_to_gate(reach, p, triangle, SURFACE, part);
+    return is_cut(gate, part, count, &length) && length > 4.0 * SURFACE;
 }
 
 static EnfBox3 grown(EnfBox3 box, double by) {

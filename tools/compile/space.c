@@ -10,7 +10,7 @@ static bool note_materials(EnfSpace *space) {
     space->faces = calloc((size_t)source->material_count + 1, sizeof *space->faces);
     for (uint32_t m = 0; space->faces != NULL && m < source->material_count; m++) {
         bool both = (source->materials[m].flags & ENF_MATERIAL_DOUBLE_SIDED) != 0;
-        space->faces[m] = (uint8_t)((enf_material_is_open(source, m) ? ENF_FACE_OPEN : 0) | (both ? ENF_FACE_TWO_SIDED : 0));
+        space->faces[m] = (uint8_t)((enf_material_seals(source, m) ? 0 : ENF_FACE_OPEN) | (both ? ENF_FACE_TWO_SIDED : 0));
     }
     return space->faces != NULL;
 }
