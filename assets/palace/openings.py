@@ -29,7 +29,7 @@ ARCADE = Kind("arch", 2.5, 3.75, frame="stone_trim", tunnel="stone_trim")
 BALCONY = Kind("arch", 2.5, 3.25, frame="stone_trim", tunnel="stone_trim")
 VAULT_ARCH = Kind("arch", 1.5, 2.125, frame="stone_trim", tunnel="stone_trim")
 WINDOW = Kind("rect", 1.25, 2.5, 0.875)
-UPPER_WINDOW = Kind("rect", 1.25, 2.25, 0.875)
+UPPER_WINDOW = Kind("rect", 1.25, 2.0, 0.875)
 TALL_WINDOW = Kind("arch", 1.5, 3.0, 0.875, frame="stone_trim", tunnel="stone_trim")
 ROUND_WINDOW = Kind("round", 1.75, 1.75, 1.25, frame="stone_trim", tunnel="stone_trim")
 

@@ -7,14 +7,17 @@ import argparse
 import sys
 from pathlib import Path
 
+import bpy
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import building  # noqa: E402  (Blender runs this file alone; its neighbours need the path above)
+import furnish  # noqa: E402
 import openings  # noqa: E402
 import plan  # noqa: E402
 import tour  # noqa: E402
+import trim  # noqa: E402
 from scene import Scene  # noqa: E402
-from shell import centre_of  # noqa: E402
 
 EYE = 1.7
 
@@ -32,27 +35,31 @@ def build_shells(scene, rooms, portals):
         scene.room(room)
         own = [p for p in portals if room.name in (p.source, p.target)]
         scene.local_mesh(room.name, f"{room.name}_shell", building.shell_mesh(building.build(room, own)))
+        mouldings = trim.trim_mesh(room)
+        if mouldings.faces:
+            scene.local_mesh(room.name, f"{room.name}_trim", mouldings)
     for number, portal in enumerate(portals):
         scene.portal(portal, number)
-
-
-def light_rooms(scene, rooms):
-    for room in rooms.values():
-        x, y = centre_of(room.footprint)
-        scene.light(room.name, 0, (x, y, room.floor + 0.72 * (room.ceiling - room.floor)), 40.0, (1.0, 0.86, 0.66), 14.0)
 
 
 def main():
     arguments = parse_arguments()
     rooms = {room.name: room for room in plan.rooms()}
     portals = openings.resolve(rooms)
-    scene = Scene({})
+    scene = Scene()
     build_shells(scene, rooms, portals)
-    light_rooms(scene, rooms)
+    feet = tour.walk(rooms, portals)
+    for room in rooms.values():
+        furnish.furnish(scene, room, feet)
     scene.spawn("EntranceHall", (0.0, -15.0, 0.0), 0.0, EYE)
-    tour.write(arguments.tour or Path(__file__).resolve().parents[2] / "maps" / "palace" / "tour.csv",
-               tour.walk(rooms, portals))
+    tour.write(arguments.tour or Path(__file__).resolve().parents[2] / "maps" / "palace" / "tour.csv", feet)
+    save(arguments)
     scene.export(str(Path(arguments.output).resolve()))
+
+
+def save(arguments):
+    if arguments.blend:
+        bpy.ops.wm.save_as_mainfile(filepath=str(Path(arguments.blend).resolve()))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,15 @@
 """From plain mesh data to Blender objects: materials, rooms as empties, shells, portals, lights, furniture."""
 
 import bpy
+import numpy as np
 
+import catalogue
 from geometry import snap, snap_point, sub
 from materials import MATERIALS
 from openings import Portal
+from pictures import PICTURES
 from shell import centre_of
+from textures import SURFACES
 
 LIGHT_WATTS = 12.566370614  # the exporter divides a point light's watts by 4 pi to get candelas
 
@@ -13,11 +17,12 @@ LIGHT_WATTS = 12.566370614  # the exporter divides a point light's watts by 4 pi
 class Scene:
     """The Blender file under construction."""
 
-    def __init__(self, images):
+    def __init__(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
         self.collection = bpy.context.scene.collection
-        self.images = images  # texture name -> bpy image
+        self.images = {}
         self.materials = {}
+        self.data = {}
         self.meshes = {}
         self.rooms = {}
         self.origins = {}
@@ -49,12 +54,22 @@ class Scene:
                 shader.inputs["Emission"].default_value = (*look.colour, 1.0)
                 shader.inputs["Emission Strength"].default_value = look.emission
         target.default_value = (*look.colour, 1.0)
-        image = self.images.get(look.texture)
-        if image:
+        if look.texture:
             picture = nodes.new("ShaderNodeTexImage")
-            picture.image = image
+            picture.image = self.image(look.texture)
             links.new(picture.outputs["Color"], target)
         return material
+
+    def image(self, name):
+        """The texture as a Blender image, painted the first time it is asked for."""
+        if name not in self.images:
+            pixels = np.clip((SURFACES | PICTURES)[name](), 0.0, 1.0)
+            height, width = pixels.shape[:2]
+            image = bpy.data.images.new(name, width, height)
+            image.pixels.foreach_set(np.dstack([pixels, np.ones((height, width))]).astype(np.float32).ravel())
+            image.pack()
+            self.images[name] = image
+        return self.images[name]
 
     # ---- meshes ----------------------------------------------------------------------------------------------------
 
@@ -77,11 +92,17 @@ class Scene:
         mesh.update()
         return mesh
 
-    def shared_mesh(self, name, build):
-        """The one mesh datablock of a piece of furniture; `build` makes its data the first time."""
+    def piece_data(self, name):
+        """Mesh data of a piece of the catalogue, built once."""
+        if name not in self.data:
+            self.data[name] = catalogue.build(name)
+        return self.data[name]
+
+    def piece(self, room_name, object_name, name, at, turn, extras=None):
+        """One more object that shares the mesh datablock of its piece, as glTF shares meshes between nodes."""
         if name not in self.meshes:
-            self.meshes[name] = self.mesh(name, build())
-        return self.meshes[name]
+            self.meshes[name] = self.mesh(name, self.piece_data(name))
+        return self.child(room_name, object_name, self.meshes[name], at, turn, extras)
 
     # ---- objects ---------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,27 @@
+"""Which theme furnishes which room, in what order: what is built in first, then what is put in."""
+
+import structure
+import themes
+import themes_service as service
+from placing import Placer
+
+THEMES = {
+    "salon": themes.salon, "music": themes.music, "dining": themes.dining, "throne": themes.throne,
+    "cabinet": themes.cabinet, "study": themes.study, "library": themes.library, "upper_library": themes.upper_library,
+    "billiard": themes.billiard, "gallery": themes.gallery, "bedroom": themes.bedroom, "ballroom": themes.ballroom,
+    "hall": themes.hall, "entrance": themes.entrance, "marble": themes.marble, "great_hall": themes.great_hall,
+    "aisle": themes.aisle, "rotunda": themes.rotunda, "belvedere": themes.belvedere, "crypt": themes.crypt,
+    "guard": themes.guard, "stairs": themes.stairs, "landing": themes.landing, "lobby": themes.lobby,
+    "kitchen": service.kitchen, "servants": service.servants, "chapel": service.chapel, "treasury": service.treasury,
+    "sculpture": service.sculpture, "orangery": service.orangery, "studio": service.studio, "bath": service.bath,
+    "barrels": service.barrels, "store": service.store, "dungeon": service.dungeon, "undercroft": service.undercroft,
+    "passage": service.passage, "cistern": service.cistern, "ramp": service.ramp, "court": service.court,
+}
+
+
+def furnish(scene, room, feet):
+    """Puts everything into one room; `feet` is the walker's way, which stays free."""
+    placer = Placer(scene, room, feet)
+    structure.build(placer)
+    THEMES[room.theme](placer)
+    return placer.count
