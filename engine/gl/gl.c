@@ -42,6 +42,16 @@ static EnfGlAmbient choose_ambient(const EnfMap *map) {
     return map->lights_count ? fill : has_vertex_colors(map) ? baked : plain;
 }
 
+/* Surfaces that the map has, ids for them, wireframe and lines. */
+static uint32_t needed_programs(const EnfMap *map) {
+    uint32_t needed = 1u << ENF_GL_PROGRAM_FLAT | 1u << ENF_GL_PROGRAM_LINES;
+    for (uint32_t i = 0; i < map->materials_count; i++) {
+        needed |= 1u << enf_gl_program_kind(&map->materials[i], ENF_RENDER_COLOR);
+        needed |= 1u << enf_gl_program_kind(&map->materials[i], ENF_RENDER_IDS);
+    }
+    return needed;
+}
+
 EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfError *error) {
     ENF_ASSERT(gl && map && load);
     *gl = NULL;
@@ -56,9 +66,10 @@ EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfErr
         enf_free(NULL, made, 1, sizeof *made);
         return result;
     }
-    if ((result = check_version(made, error)) != ENF_OK ||
-        (result = enf_gl_programs_create(&made->f, made->programs, error)) != ENF_OK ||
-        (result = enf_gl_upload_geometry(made, error)) != ENF_OK || (result = enf_gl_upload_textures(made, error)) != ENF_OK) {
+    if ((result = check_version(made, error)) != ENF_OK || (result = enf_gl_upload_geometry(made, error)) != ENF_OK ||
+        (result = enf_gl_programs_create(&made->f, made->programs, needed_programs(map), made->light_features, error)) !=
+            ENF_OK ||
+        (result = enf_gl_upload_textures(made, error)) != ENF_OK) {
         enf_gl_destroy(made);
         return result;
     }

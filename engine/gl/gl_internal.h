@@ -22,7 +22,8 @@ struct EnfGl {
     GLint max_table, max_texture; /**< limits of the driver */
     GLuint vertex_array, vertex_buffer, light_list_buffer, index_buffer;
     GLuint line_array, line_buffer;
-    EnfGlTable offsets, lights, light_items, light_planes, clusters;
+    EnfGlTable offsets, lights, light_planes, clusters;
+    uint32_t light_features;    /**< ENF_GL_LIGHTS … */
     float (*offset_staging)[4]; /**< a cell; only those of the list drawn are current */
     GLsizei *counts;            /**< a cluster: arguments of a multi-draw */
     const void **starts;
@@ -40,6 +41,8 @@ void enf_gl_free_geometry(EnfGl *gl);
 EnfResult enf_gl_upload_textures(EnfGl *gl, EnfError *error);
 void enf_gl_free_textures(EnfGl *gl);
 
+/** render.c: the program that draws a material. */
+EnfGlProgramKind enf_gl_program_kind(const EnfMaterial *material, EnfRenderMode mode);
 /** render.c: prepares programs for the camera of `list` and uploads the offsets of its cells. */
 void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list);
 /** render.c: the ranges of a batch with whatever program and state are set. */

@@ -1,33 +1,41 @@
 /* Makes EnfGlLights from the light references of a map. A reference says through which opening a light comes into a cell;
- * the references of one light in one cell are gathered into one record, so a point that two windows overlap in is lit
- * once. Then each cluster gets the records whose range and windows touch its box: a fragment loops over few lights. The
- * result depends on the map alone, never on what is visible, so shading is the same culled and unculled. */
+ * the references of one light in one cell are gathered into one light with several windows, so a point that two windows
+ * overlap in is lit once. Then each cluster gets the lights whose range and windows touch its box: a fragment loops over
+ * few. The result depends on the map alone, never on what is visible: shading is the same culled and unculled. */
 #include "gl/lights.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { RECORD_LIMIT = 1 << 22, PLANE_LIMIT = 1 << 24, ITEM_LIMIT = 1 << 24 }; /* exact in a float; 24 bits of a list */
+enum { LIGHT_LIMIT = 1 << 24, PLANE_LIMIT = 1 << 26 }; /* bits of a list and of EnfGlLight.windows */
 
-/* Half the width of a window's soft edge in metres; the shader's 10.0 is 1 / (2 × this). */
-static const float WINDOW_SOFT = 0.05f;
+static const float WINDOW_SOFT = 0.05f; /* half the width of a window's soft edge, metres */
+static const float MIDDLE = 0.75f;      /* what the median lit cluster gets, facing its lights */
+static const float FAINTEST = 0.015f;   /* where a light may fade out: below a step of a dark picture */
+static const double FAR = 16384.0;      /* metres to a directional light */
 
 typedef struct Builder {
-    EnfGlLights *lights;
+    EnfGlLights *out;
     const EnfMap *map;
+    EnfGlLight *cell_lights; /* of the cell at hand */
+    uint32_t *order;         /* its references, grouped by light */
+    uint32_t *list, *last;   /* of the cluster at hand, and of the one before */
+    float *brightness;       /* a lit cluster each */
+    uint32_t ref_capacity, cell_light_count, list_count, last_count, bright_count;
+    float exposure;
     EnfError *error;
 } Builder;
 
 /* ---- growing arrays --------------------------------------------------------------------------------------------- */
 
-/* Room for `count` more elements of `size` bytes; false if memory or `limit` is exhausted. */
+/* Room for one more element of `size` bytes; false if memory or `limit` is exhausted. */
 static bool reserve(Builder *builder, void **array, uint32_t used, uint32_t *capacity, size_t size, uint32_t limit) {
     if (used < *capacity) {
         return true;
     }
     uint32_t wanted = *capacity ? 2 * *capacity : 256;
     if (used >= limit) {
-        enf_error_set(builder->error, ENF_ERROR_SIZE, UINT64_MAX, "the lights of this map need more than %u records", limit);
+        enf_error_set(builder->error, ENF_ERROR_SIZE, UINT64_MAX, "the lights of this map need more than %u entries", limit);
         return false;
     }
     void *grown = enf_realloc(NULL, *array, *capacity, wanted, size);
@@ -40,97 +48,110 @@ static bool reserve(Builder *builder, void **array, uint32_t used, uint32_t *cap
     return true;
 }
 
-static float *push_record(Builder *builder) {
-    EnfGlLights *l = builder->lights;
-    void *array = l->records;
-    if (!reserve(builder, &array, l->record_count, &l->record_capacity, ENF_GL_LIGHT_FLOATS * sizeof(float), RECORD_LIMIT)) {
-        return NULL;
-    }
-    l->records = array;
-    return &l->records[(size_t)ENF_GL_LIGHT_FLOATS * l->record_count++];
-}
-
-static bool push_plane(Builder *builder, const EnfPlane4f *plane) {
-    EnfGlLights *l = builder->lights;
-    void *array = l->planes;
-    if (!reserve(builder, &array, l->plane_count, &l->plane_capacity, 4 * sizeof(float), PLANE_LIMIT)) {
+static bool push_light(Builder *builder, const EnfGlLight *light) {
+    EnfGlLights *out = builder->out;
+    void *array = out->lights;
+    if (!reserve(builder, &array, out->light_count, &out->light_capacity, sizeof *light, LIGHT_LIMIT)) {
         return false;
     }
-    l->planes = array;
-    memcpy(&l->planes[(size_t)4 * l->plane_count++], plane, 4 * sizeof(float));
+    out->lights = array;
+    out->lights[out->light_count++] = *light;
     return true;
 }
 
-static bool push_item(Builder *builder, uint32_t record) {
-    EnfGlLights *l = builder->lights;
-    void *array = l->items;
-    if (!reserve(builder, &array, l->item_count, &l->item_capacity, sizeof *l->items, ITEM_LIMIT)) {
+static bool push_plane(Builder *builder, const float plane[4]) {
+    EnfGlLights *out = builder->out;
+    void *array = out->planes;
+    if (!reserve(builder, &array, out->plane_count, &out->plane_capacity, sizeof *out->planes, PLANE_LIMIT)) {
         return false;
     }
-    l->items = array;
-    l->items[l->item_count++] = record;
+    out->planes = array;
+    memcpy(out->planes[out->plane_count++], plane, sizeof *out->planes);
     return true;
 }
 
-/* ---- records: a light as a cell sees it ------------------------------------------------------------------------- */
+/* ---- a light as a cell sees it ---------------------------------------------------------------------------------- */
 
-/* The planes of `count` references of one light; none if one of them has no window, for then all is lit. */
-static bool push_windows(Builder *builder, const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
-    static const EnfPlane4f end = {{0.0f, 0.0f, 0.0f}, 0.0f};
+/* Planes of `count` references; 0 if one of them has no window, for then all is lit, or if there are too many. */
+static uint32_t count_planes(const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
+    uint64_t planes = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (refs[order[i]].plane_count == 0) {
-            return true;
+            return 0;
         }
+        planes += (uint64_t)refs[order[i]].plane_count + 1;
+    }
+    return planes <= ENF_GL_LIGHT_PLANES_MAX ? (uint32_t)planes : 0;
+}
+
+/* A plane through the light (or near it), made relative to the cell and scaled to the soft edge. */
+static bool push_window_plane(Builder *builder, const EnfPlane4f *from, const float position[3]) {
+    const float scale = 0.5f / WINDOW_SOFT;
+    float d = from->d - (from->n[0] * position[0] + from->n[1] * position[1] + from->n[2] * position[2]);
+    float plane[4] = {from->n[0] * scale, from->n[1] * scale, from->n[2] * scale, d * scale + 0.5f};
+    return push_plane(builder, plane);
+}
+
+/* Sets light->windows from its references. */
+static bool push_windows(Builder *builder, EnfGlLight *light, const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
+    static const float end[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+    uint32_t first = builder->out->plane_count;
+    light->windows = 0; /* plane 0: all is lit */
+    if (count_planes(refs, order, count) == 0) {
+        return true;
     }
     for (uint32_t i = 0; i < count; i++) {
-        const EnfLightRef *ref = &refs[order[i]];
-        for (uint32_t p = 0; p < ref->plane_count; p++) {
-            const EnfPlane4f *plane = &builder->map->light_planes[ref->plane_first + p];
-            bool degenerate = plane->n[0] == 0.0f && plane->n[1] == 0.0f && plane->n[2] == 0.0f;
-            if (!degenerate && !push_plane(builder, plane)) {
+        const EnfPlane4f *planes = &builder->map->light_planes[refs[order[i]].plane_first];
+        for (uint32_t p = 0; p < refs[order[i]].plane_count; p++) {
+            if (!push_window_plane(builder, &planes[p], light->position)) {
                 return false;
             }
         }
-        if (!push_plane(builder, &end)) {
+        if (!push_plane(builder, end)) {
             return false;
         }
     }
+    light->windows = first << 6 | (builder->out->plane_count - first - 1);
+    builder->out->has_windows = true;
     return true;
 }
 
 /* glTF's spot cone as one multiply and add (KHR_lights_punctual, "Inner and Outer Cone Angles"). */
-static void spot_terms(const EnfLight *light, float *scale, float *offset) {
-    float width = light->inner_cos - light->outer_cos;
-    *scale = 1.0f / (width > 0.001f ? width : 0.001f);
-    *offset = -light->outer_cos * *scale;
+static void set_aim(Builder *builder, EnfGlLight *out, const EnfLight *light) {
+    memset(out->aim, 0, sizeof out->aim);
+    out->aim_offset = 1.0f;
+    if (light->kind == ENF_LIGHT_SPOT) {
+        float width = light->inner_cos - light->outer_cos;
+        float scale = 1.0f / (width > 0.001f ? width : 0.001f);
+        for (int i = 0; i < 3; i++) {
+            out->aim[i] = light->direction[i] * scale;
+        }
+        out->aim_offset = -light->outer_cos * scale;
+        builder->out->has_spots = true;
+    }
 }
 
-static bool push_light(Builder *builder, const EnfCell *cell, const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
+static bool add_light(Builder *builder, const EnfCell *cell, const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
     const EnfLight *light = &builder->map->lights[refs[order[0]].light];
-    uint32_t plane_first = builder->lights->plane_count;
-    float *record = push_record(builder);
-    if (!record || !push_windows(builder, refs, order, count)) {
-        return false;
-    }
+    EnfGlLight *out = &builder->cell_lights[builder->cell_light_count++];
+    bool directional = light->kind == ENF_LIGHT_DIRECTIONAL;
     for (int i = 0; i < 3; i++) {
-        record[i] = (float)(light->position[i] - cell->origin[i]);
-        record[4 + i] = light->color[i];
-        record[8 + i] = light->direction[i];
+        double away = directional ? -(double)light->direction[i] * FAR : light->position[i] - cell->origin[i];
+        out->position[i] = (float)away;
+        out->color[i] = light->color[i] * (directional ? (float)(FAR * FAR) : 1.0f);
     }
-    bool ranged = light->kind != ENF_LIGHT_DIRECTIONAL && light->range > 0.0f;
-    record[3] = ranged ? 1.0f / (light->range * light->range) : 0.0f;
-    record[7] = (float)light->kind;
-    spot_terms(light, &record[11], &record[12]);
-    record[13] = (float)plane_first;
-    record[14] = (float)(builder->lights->plane_count - plane_first);
-    record[15] = 0.0f;
-    return true;
+    bool ranged = !directional && light->range > 0.0f;
+    out->inverse_range2 = ranged ? 1.0f / (light->range * light->range) : 0.0f;
+    set_aim(builder, out, light);
+    return push_windows(builder, out, refs, order, count);
 }
 
-/* Records of a cell: its references by light, in the order of their first mention. */
-static bool push_cell(Builder *builder, const EnfCell *cell, uint32_t *order) {
+/* The lights of a cell: its references by light, in the order of their first mention. */
+static bool gather_cell(Builder *builder, const EnfCell *cell) {
     const EnfLightRef *refs = builder->map->light_refs + cell->light_first;
+    uint32_t *order = builder->order;
     uint32_t left = cell->light_count;
+    builder->cell_light_count = 0;
     for (uint32_t i = 0; i < left; i++) {
         order[i] = i;
     }
@@ -144,7 +165,7 @@ static bool push_cell(Builder *builder, const EnfCell *cell, uint32_t *order) {
                 order[same++] = moved;
             }
         }
-        if (!push_light(builder, cell, refs, order, same)) {
+        if (!add_light(builder, cell, refs, order, same)) {
             return false;
         }
         order += same;
@@ -153,10 +174,10 @@ static bool push_cell(Builder *builder, const EnfCell *cell, uint32_t *order) {
     return true;
 }
 
-/* ---- lists: the lights of a cluster ----------------------------------------------------------------------------- */
+/* ---- does a light touch a cluster? ------------------------------------------------------------------------------ */
 
 /* Squared distance of a point to a box. */
-static float box_distance2(const EnfCluster *c, const float *p) {
+static float box_distance2(const EnfCluster *c, const float p[3]) {
     float sum = 0.0f;
     for (int i = 0; i < 3; i++) {
         float d = p[i] < c->min[i] ? c->min[i] - p[i] : p[i] > c->max[i] ? p[i] - c->max[i] : 0.0f;
@@ -165,74 +186,70 @@ static float box_distance2(const EnfCluster *c, const float *p) {
     return sum;
 }
 
+static bool is_end(const float plane[4]) {
+    return plane[0] == 0.0f && plane[1] == 0.0f && plane[2] == 0.0f;
+}
+
 /* Is some point of the box inside a plane or its soft edge? */
-static bool box_touches_plane(const EnfCluster *c, const float *light, const float *plane) {
-    float farthest = plane[3];
+static bool box_touches_plane(const EnfCluster *c, const float plane[4]) {
+    float most = plane[3];
     for (int i = 0; i < 3; i++) {
-        farthest += plane[i] * ((plane[i] > 0.0f ? c->max[i] : c->min[i]) - light[i]);
+        most += plane[i] * (plane[i] > 0.0f ? c->max[i] : c->min[i]);
     }
-    return farthest >= -WINDOW_SOFT;
+    return most > -1e-3f;
 }
 
-static bool window_touches(const EnfGlLights *lights, const float *record, const EnfCluster *c) {
-    uint32_t first = (uint32_t)record[13], count = (uint32_t)record[14];
+static bool windows_touch(const EnfGlLights *out, uint32_t windows, const EnfCluster *c) {
+    uint32_t first = windows >> 6, last = first + (windows & 63u);
     bool inside = true;
-    for (uint32_t i = first; i < first + count; i++) {
-        const float *plane = &lights->planes[(size_t)4 * i];
-        if (plane[0] == 0.0f && plane[1] == 0.0f && plane[2] == 0.0f) {
-            if (inside) {
-                return true;
-            }
-            inside = true;
+    for (uint32_t i = first; i <= last; i++) {
+        if (!is_end(out->planes[i])) {
+            inside = inside && box_touches_plane(c, out->planes[i]);
+        } else if (inside) {
+            return true;
         } else {
-            inside = inside && box_touches_plane(c, record, plane);
+            inside = true;
         }
     }
-    return count == 0;
+    return false;
 }
 
-static bool light_touches(const EnfGlLights *lights, const float *record, const EnfCluster *c) {
-    return box_distance2(c, record) * record[3] < 1.0f && window_touches(lights, record, c);
-}
-
-/* Appends the list of a cluster; shares the previous one's if they are equal. */
-static bool push_list(Builder *builder, uint32_t cluster, uint32_t record_first, uint32_t record_end) {
-    EnfGlLights *l = builder->lights;
-    const EnfCluster *c = &builder->map->clusters[cluster];
-    uint32_t first = l->item_count;
-    for (uint32_t r = record_first; r < record_end && l->item_count - first < ENF_GL_LIGHTS_MAX; r++) {
-        const float *record = &l->records[(size_t)ENF_GL_LIGHT_FLOATS * r];
-        if (light_touches(l, record, c) && !push_item(builder, r)) {
-            return false;
-        }
-    }
-    uint32_t count = l->item_count - first;
-    if (cluster > 0 && count > 0) {
-        uint32_t before = l->cluster_lists[cluster - 1] >> 8, before_count = l->cluster_lists[cluster - 1] & 255u;
-        if (before_count == count && memcmp(&l->items[before], &l->items[first], count * sizeof *l->items) == 0) {
-            l->item_count = first;
-            first = before;
-        }
-    }
-    l->cluster_lists[cluster] = first << 8 | count;
-    return true;
+static bool touches(const EnfGlLights *out, const EnfGlLight *light, const EnfCluster *c) {
+    return box_distance2(c, light->position) * light->inverse_range2 < 1.0f && windows_touch(out, light->windows, c);
 }
 
 /* ---- exposure --------------------------------------------------------------------------------------------------- */
 
-/* How bright a light would be at the middle of a cluster, facing it. */
-static float brightness(const float *record, const EnfCluster *c) {
-    float luminance = 0.2126f * record[4] + 0.7152f * record[5] + 0.0722f * record[6];
-    if ((uint32_t)record[7] == ENF_LIGHT_DIRECTIONAL) {
-        return luminance;
-    }
+static float luminance(const EnfGlLight *light) {
+    return 0.2126f * light->color[0] + 0.7152f * light->color[1] + 0.0722f * light->color[2];
+}
+
+/* How bright a light would be at the middle of a cluster that faces it. */
+static float brightness(const EnfGlLight *light, const EnfCluster *c) {
     float distance2 = 0.25f; /* half a metre: no surface counts as nearer */
     for (int i = 0; i < 3; i++) {
-        float d = 0.5f * (c->min[i] + c->max[i]) - record[i];
+        float d = 0.5f * (c->min[i] + c->max[i]) - light->position[i];
         distance2 += d * d;
     }
-    float window = 1.0f - distance2 * distance2 * record[3] * record[3];
-    return window > 0.0f ? luminance * window / distance2 : 0.0f;
+    float in_range = distance2 * light->inverse_range2;
+    float window = 1.0f - in_range * in_range;
+    return window > 0.0f ? luminance(light) * window / distance2 : 0.0f;
+}
+
+static bool measure_cell(Builder *builder, const EnfCell *cell) {
+    for (uint32_t c = cell->cluster_first; c < cell->cluster_first + cell->cluster_count; c++) {
+        const EnfCluster *cluster = &builder->map->clusters[c];
+        float sum = 0.0f;
+        for (uint32_t i = 0; i < builder->cell_light_count; i++) {
+            const EnfGlLight *light = &builder->cell_lights[i];
+            sum += touches(builder->out, light, cluster) ? brightness(light, cluster) : 0.0f;
+        }
+        if (sum > 0.0f) {
+            builder->brightness[builder->bright_count++] = sum;
+        }
+    }
+    builder->out->plane_count = 1; /* all but the end that lights everything: the second pass makes them again */
+    return true;
 }
 
 static int by_value(const void *a, const void *b) {
@@ -243,38 +260,93 @@ static int by_value(const void *a, const void *b) {
 }
 
 /* Files give candela, watts or anything: what half of the lit clusters exceed becomes a middling grey. */
-static bool expose(Builder *builder) {
-    EnfGlLights *l = builder->lights;
-    float *values = enf_alloc(NULL, l->cluster_count, sizeof *values);
-    if (!values && l->cluster_count) {
-        enf_error_set(builder->error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for lights");
-        return false;
+static void expose(Builder *builder) {
+    builder->exposure = 1.0f;
+    if (builder->bright_count) {
+        qsort(builder->brightness, builder->bright_count, sizeof *builder->brightness, by_value);
+        builder->exposure = MIDDLE / builder->brightness[builder->bright_count / 2];
     }
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < l->cluster_count; i++) {
-        float sum = 0.0f;
-        for (uint32_t k = 0; k < (l->cluster_lists[i] & 255u); k++) {
-            uint32_t record = l->items[(l->cluster_lists[i] >> 8) + k];
-            sum += brightness(&l->records[(size_t)ENF_GL_LIGHT_FLOATS * record], &builder->map->clusters[i]);
-        }
-        if (sum > 0.0f) {
-            values[count++] = sum;
+}
+
+/* Applies the exposure, and lets lights fade out smoothly where they would be too faint to see: ranges that files give or
+ * the compiler derives are generous, and each light on a list costs its fragments the same, bright or faint. */
+static void expose_light(const Builder *builder, EnfGlLight *light) {
+    for (int i = 0; i < 3; i++) {
+        light->color[i] *= builder->exposure;
+    }
+    float faint = FAINTEST / (luminance(light) + 1e-30f); /* 1 / (distance at which it is that faint)² */
+    light->inverse_range2 = faint > light->inverse_range2 ? faint : light->inverse_range2;
+}
+
+/* ---- lists ------------------------------------------------------------------------------------------------------ */
+
+static bool repeats_last(const Builder *builder) {
+    return builder->list_count == builder->last_count &&
+           memcmp(builder->list, builder->last, builder->list_count * sizeof *builder->list) == 0;
+}
+
+/* The list of a cluster; its neighbour's, if they are equal. */
+static bool list_cluster(Builder *builder, uint32_t c, uint32_t *shared) {
+    EnfGlLights *out = builder->out;
+    builder->list_count = 0;
+    for (uint32_t i = 0; i < builder->cell_light_count && builder->list_count < ENF_GL_LIGHTS_MAX; i++) {
+        if (touches(out, &builder->cell_lights[i], &builder->map->clusters[c])) {
+            builder->list[builder->list_count++] = i;
         }
     }
-    if (count) {
-        qsort(values, count, sizeof *values, by_value);
-        float exposure = 0.75f / values[count / 2];
-        for (uint32_t r = 0; r < l->record_count; r++) {
-            for (int i = 4; i < 7; i++) {
-                l->records[(size_t)ENF_GL_LIGHT_FLOATS * r + (size_t)i] *= exposure;
+    if (builder->list_count == 0) {
+        out->cluster_lists[c] = 0; /* the dark light alone */
+        return true;
+    }
+    if (!repeats_last(builder)) {
+        *shared = out->light_count << 8 | (builder->list_count - 1);
+        for (uint32_t i = 0; i < builder->list_count; i++) {
+            if (!push_light(builder, &builder->cell_lights[builder->list[i]])) {
+                return false;
             }
         }
+        memcpy(builder->last, builder->list, builder->list_count * sizeof *builder->list);
+        builder->last_count = builder->list_count;
     }
-    enf_free(NULL, values, l->cluster_count, sizeof *values);
+    out->cluster_lists[c] = *shared;
+    return true;
+}
+
+static bool list_cell(Builder *builder, const EnfCell *cell) {
+    uint32_t shared = 0;
+    builder->last_count = 0;
+    for (uint32_t i = 0; i < builder->cell_light_count; i++) {
+        expose_light(builder, &builder->cell_lights[i]);
+    }
+    for (uint32_t c = cell->cluster_first; c < cell->cluster_first + cell->cluster_count; c++) {
+        if (!list_cluster(builder, c, &shared)) {
+            return false;
+        }
+    }
     return true;
 }
 
 /* ---- build ------------------------------------------------------------------------------------------------------ */
+
+static bool each_cell(Builder *builder, bool (*visit)(Builder *, const EnfCell *)) {
+    for (uint32_t i = 0; i < builder->map->cells_count; i++) {
+        const EnfCell *cell = &builder->map->cells[i];
+        if (!gather_cell(builder, cell) || !visit(builder, cell)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool build(Builder *builder) {
+    static const float end[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+    static const EnfGlLight dark = {.aim_offset = 1.0f};
+    if (!push_light(builder, &dark) || !push_plane(builder, end) || !each_cell(builder, measure_cell)) {
+        return false;
+    }
+    expose(builder);
+    return each_cell(builder, list_cell);
+}
 
 static uint32_t most_refs(const EnfMap *map) {
     uint32_t most = 0;
@@ -284,46 +356,41 @@ static uint32_t most_refs(const EnfMap *map) {
     return most;
 }
 
-static bool build_cells(Builder *builder, uint32_t *order) {
-    const EnfMap *map = builder->map;
-    for (uint32_t i = 0; i < map->cells_count; i++) {
-        const EnfCell *cell = &map->cells[i];
-        uint32_t record_first = builder->lights->record_count;
-        if (!push_cell(builder, cell, order)) {
-            return false;
-        }
-        for (uint32_t c = cell->cluster_first; c < cell->cluster_first + cell->cluster_count; c++) {
-            if (!push_list(builder, c, record_first, builder->lights->record_count)) {
-                return false;
-            }
-        }
-    }
-    return expose(builder);
-}
+/* X(array, count): working memory. */
+#define ENF_GL_LIGHTS_WORK(X)                                                                                                  \
+    X(cell_lights, builder.ref_capacity)                                                                                       \
+    X(order, builder.ref_capacity)                                                                                             \
+    X(list, ENF_GL_LIGHTS_MAX)                                                                                                 \
+    X(last, ENF_GL_LIGHTS_MAX)                                                                                                 \
+    X(brightness, (size_t)map->clusters_count + 1)
 
 EnfResult enf_gl_lights_build(EnfGlLights *lights, const EnfMap *map, EnfError *error) {
     ENF_ASSERT(lights && map);
     memset(lights, 0, sizeof *lights);
     EnfError own = {0};
-    Builder builder = {lights, map, error ? error : &own};
+    Builder builder = {.out = lights, .map = map, .ref_capacity = most_refs(map) + 1, .error = error ? error : &own};
     builder.error->code = ENF_OK;
-    uint32_t refs = most_refs(map);
-    uint32_t *order = enf_alloc(NULL, (size_t)refs + 1, sizeof *order);
-    lights->cluster_lists = enf_alloc(NULL, map->clusters_count, sizeof *lights->cluster_lists);
+    lights->cluster_lists = enf_alloc(NULL, (size_t)map->clusters_count + 1, sizeof *lights->cluster_lists);
     lights->cluster_count = map->clusters_count;
-    bool done = order && (lights->cluster_lists || map->clusters_count == 0);
+    bool done = lights->cluster_lists != NULL;
+#define ENF_GL_LIGHTS_MAKE(array, count)                                                                                       \
+    builder.array = enf_alloc(NULL, (count), sizeof *builder.array);                                                           \
+    done = done && builder.array;
+    ENF_GL_LIGHTS_WORK(ENF_GL_LIGHTS_MAKE)
+#undef ENF_GL_LIGHTS_MAKE
     if (!done) {
         enf_error_set(builder.error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for lights");
     }
-    done = done && build_cells(&builder, order);
-    enf_free(NULL, order, (size_t)refs + 1, sizeof *order);
+    done = done && build(&builder);
+#define ENF_GL_LIGHTS_FREE(array, count) enf_free(NULL, builder.array, (count), sizeof *builder.array);
+    ENF_GL_LIGHTS_WORK(ENF_GL_LIGHTS_FREE)
+#undef ENF_GL_LIGHTS_FREE
     return done ? ENF_OK : builder.error->code;
 }
 
 void enf_gl_lights_free(EnfGlLights *lights) {
-    enf_free(NULL, lights->records, lights->record_capacity, ENF_GL_LIGHT_FLOATS * sizeof(float));
-    enf_free(NULL, lights->planes, lights->plane_capacity, 4 * sizeof(float));
-    enf_free(NULL, lights->items, lights->item_capacity, sizeof *lights->items);
-    enf_free(NULL, lights->cluster_lists, lights->cluster_count, sizeof *lights->cluster_lists);
+    enf_free(NULL, lights->lights, lights->light_capacity, sizeof *lights->lights);
+    enf_free(NULL, lights->planes, lights->plane_capacity, sizeof *lights->planes);
+    enf_free(NULL, lights->cluster_lists, (size_t)lights->cluster_count + 1, sizeof *lights->cluster_lists);
     memset(lights, 0, sizeof *lights);
 }

@@ -4,19 +4,27 @@
 
 #include <enfilade/map.h>
 
-/** Floats of a light as one cell sees it, four texels: position relative to the cell's origin, 1/range² (0: none) ·
- *  colour × exposure, kind · direction, spot scale · spot offset, first plane, plane count, 0. */
-#define ENF_GL_LIGHT_FLOATS 16
-/** Lights that one cluster can have. */
-#define ENF_GL_LIGHTS_MAX 255
+/** Lights that one cluster can have; planes of all windows through which one of them comes. */
+enum { ENF_GL_LIGHTS_MAX = 256, ENF_GL_LIGHT_PLANES_MAX = 64 };
+
+/** A light on a cluster's list, three texels. Positions are relative to the home cell's origin. A directional light stands
+ *  very far away; a light that is no spot has an aim of 0 and an offset of 1. */
+typedef struct EnfGlLight {
+    float position[3];
+    float inverse_range2; /**< 1 / range², 0 for no range */
+    float color[3];       /**< times exposure */
+    uint32_t windows;     /**< first plane << 6 | planes - 1 */
+    float aim[3];         /**< direction × spot scale */
+    float aim_offset;
+} EnfGlLight; /* 48 bytes */
 
 typedef struct EnfGlLights {
-    float *records;          /**< ENF_GL_LIGHT_FLOATS each: one for each (cell, light) */
-    float *planes;           /**< four floats each; a plane with n = 0 ends a window */
-    uint32_t *items;         /**< record numbers, the lists one after the other */
-    uint32_t *cluster_lists; /**< a cluster's list: first << 8 | count */
-    uint32_t record_count, record_capacity, plane_count, plane_capacity, item_count, item_capacity;
-    uint32_t cluster_count;
+    EnfGlLight *lights;      /**< the lists, one after the other; [0] is dark, the list of whoever has none */
+    float (*planes)[4];      /**< n·p + d: 0 at the outer border of a window's soft edge, 1 at the inner; n = 0 ends a
+                                   window; [0] is such an end: all is lit */
+    uint32_t *cluster_lists; /**< a cluster's list: first light << 8 | lights - 1; never empty */
+    uint32_t light_count, light_capacity, plane_count, plane_capacity, cluster_count;
+    bool has_spots, has_windows;
 } EnfGlLights;
 
 /** SIZE if the map has more lights than the encoding can number. Free with enf_gl_lights_free, also after a failure. */

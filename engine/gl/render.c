@@ -44,26 +44,26 @@ void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list) {
     upload_offsets(gl, list);
     bind_table(gl, ENF_GL_UNIT_OFFSETS, &gl->offsets);
     bind_table(gl, ENF_GL_UNIT_LIGHTS, &gl->lights);
-    bind_table(gl, ENF_GL_UNIT_ITEMS, &gl->light_items);
     bind_table(gl, ENF_GL_UNIT_PLANES, &gl->light_planes);
     bind_table(gl, ENF_GL_UNIT_CLUSTERS, &gl->clusters);
     for (int i = 0; i < ENF_GL_PROGRAM_LINES; i++) {
-        set_program_view(gl, &gl->programs[i], list);
+        if (gl->programs[i].name) {
+            set_program_view(gl, &gl->programs[i], list);
+        }
     }
     gl->f.BindVertexArray(gl->vertex_array);
 }
 
 /* ---- materials -------------------------------------------------------------------------------------------------- */
 
-static EnfGlProgramKind choose_program(const EnfMaterial *material, EnfRenderMode mode) {
+EnfGlProgramKind enf_gl_program_kind(const EnfMaterial *material, EnfRenderMode mode) {
     bool masked = material->alpha_mode == ENF_ALPHA_MASK;
     if (mode == ENF_RENDER_IDS) {
         return masked ? ENF_GL_PROGRAM_IDS_MASK : ENF_GL_PROGRAM_IDS;
     }
-    if (material->flags & ENF_MATERIAL_UNLIT) {
-        return masked ? ENF_GL_PROGRAM_UNLIT_MASK : ENF_GL_PROGRAM_UNLIT;
-    }
-    return masked ? ENF_GL_PROGRAM_LIT_MASK : ENF_GL_PROGRAM_LIT;
+    return (EnfGlProgramKind)(ENF_GL_PROGRAM_SURFACE + (material->flags & ENF_MATERIAL_UNLIT ? 0 : ENF_GL_LIT) +
+                              (masked ? ENF_GL_MASK : 0) + (material->texture != ENF_NONE ? ENF_GL_TEXTURE : 0) +
+                              (material->emissive_texture != ENF_NONE ? ENF_GL_GLOW : 0));
 }
 
 static void bind_texture(EnfGl *gl, GLenum unit, uint32_t texture) {
@@ -75,7 +75,7 @@ static void bind_texture(EnfGl *gl, GLenum unit, uint32_t texture) {
 
 static const EnfGlProgram *use_material(EnfGl *gl, const EnfMaterial *material, EnfRenderMode mode) {
     const EnfGlFunctions *f = &gl->f;
-    const EnfGlProgram *program = &gl->programs[choose_program(material, mode)];
+    const EnfGlProgram *program = &gl->programs[enf_gl_program_kind(material, mode)];
     f->UseProgram(program->name);
     bind_texture(gl, ENF_GL_UNIT_BASE, material->texture);
     bind_texture(gl, ENF_GL_UNIT_EMISSIVE, material->emissive_texture);
@@ -83,7 +83,6 @@ static const EnfGlProgram *use_material(EnfGl *gl, const EnfMaterial *material, 
     f->Uniform4fv(program->base_color, 1, material->base_color);
     f->Uniform3fv(program->emissive, 1, material->emissive);
     f->Uniform1f(program->cutoff, material->alpha_cutoff);
-    f->Uniform1i(program->has_emissive_texture, material->emissive_texture != ENF_NONE);
     (material->flags & ENF_MATERIAL_DOUBLE_SIDED ? f->Disable : f->Enable)(GL_CULL_FACE);
     return program;
 }

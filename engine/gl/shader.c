@@ -2,6 +2,7 @@
  * declared invariant: the id-buffer, the wireframe and the picture cover the same pixels (engine/draw/README.md). */
 #include "gl/shader.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const char vertex_source[] =
@@ -16,13 +17,15 @@ static const char vertex_source[] =
     "layout(location = 4) in uint cell;\n"
     "layout(location = 5) in uint light_list;\n"
     "out vec4 f_color;\n"
-    "#ifndef LINES\n"
+    "#if defined(TEXTURE) || defined(GLOW)\n"
     "out vec2 f_uv;\n"
     "#endif\n"
     "#ifdef LIT\n"
-    "out vec3 f_position;\n"
     "out vec3 f_normal;\n"
+    "#ifdef LIGHTS\n"
+    "out vec3 f_position;\n"
     "flat out uint f_light_list;\n"
+    "#endif\n"
     "#endif\n"
     "invariant gl_Position;\n"
     "\n"
@@ -32,14 +35,18 @@ static const char vertex_source[] =
     "#else\n"
     "    // Exact sum first, then the eye's fraction: one number for a vertex that cells share.\n"
     "    vec3 p = (position + texelFetch(cell_offsets, int(cell)).xyz) - eye_fraction;\n"
-    "    f_uv = vec2(dot(uv_rows[0], vec3(uv, 1.0)), dot(uv_rows[1], vec3(uv, 1.0)));\n"
     "#endif\n"
     "    gl_Position = clip_from_eye * vec4(p, 1.0);\n"
     "    f_color = color;\n"
+    "#if defined(TEXTURE) || defined(GLOW)\n"
+    "    f_uv = vec2(dot(uv_rows[0], vec3(uv, 1.0)), dot(uv_rows[1], vec3(uv, 1.0)));\n"
+    "#endif\n"
     "#ifdef LIT\n"
-    "    f_position = position;\n"
     "    f_normal = normal.xyz;\n"
+    "#ifdef LIGHTS\n"
+    "    f_position = position;\n"
     "    f_light_list = light_list;\n"
+    "#endif\n"
     "#endif\n"
     "}\n";
 
@@ -47,58 +54,71 @@ static const char fragment_inputs[] = "uniform sampler2D base_texture, emissive_
                                       "uniform vec4 base_color, flat_color;\n"
                                       "uniform vec3 emissive, ground, sky, key;\n"
                                       "uniform float cutoff;\n"
-                                      "uniform int has_emissive_texture, primitive_first;\n"
-                                      "uniform samplerBuffer lights, light_planes;\n"
-                                      "uniform usamplerBuffer light_items, clusters;\n"
+                                      "uniform int primitive_first;\n"
+                                      "uniform samplerBuffer light_planes;\n"
+                                      "uniform usamplerBuffer lights, clusters;\n"
                                       "in vec4 f_color;\n"
-                                      "#ifndef LINES\n"
+                                      "#if defined(TEXTURE) || defined(GLOW)\n"
                                       "in vec2 f_uv;\n"
                                       "#endif\n"
                                       "#ifdef LIT\n"
-                                      "in vec3 f_position;\n"
                                       "in vec3 f_normal;\n"
+                                      "#ifdef LIGHTS\n"
+                                      "in vec3 f_position;\n"
                                       "flat in uint f_light_list;\n"
+                                      "#endif\n"
                                       "#endif\n"
                                       "out vec4 pixel;\n";
 
-/* Inverse square with glTF's range window; a light's windows are planes through it, several windows count once. */
+/* Inverse square with glTF's range window; a light's windows are planes, and several windows count once. The loops test at
+ * their ends, and lists are never empty: a software renderer runs a loop's body once in any case, and branches not at all. */
 static const char fragment_lights[] =
     "#ifdef LIT\n"
-    "float through_windows(vec3 from_light, int first, int count) {\n"
-    "    float lit = count == 0 ? 1.0 : 0.0, window = 1.0;\n"
-    "    for (int i = first; i < first + count; i++) {\n"
+    "#ifdef LIGHTS\n"
+    "float through(uint windows) {\n"
+    "    int i = int(windows >> 6u), last = i + int(windows & 63u);\n"
+    "    float lit = 0.0, window = 1.0;\n"
+    "    do {\n"
     "        vec4 plane = texelFetch(light_planes, i);\n"
-    "        if (dot(plane.xyz, plane.xyz) == 0.0) {\n"
-    "            lit = max(lit, window);\n"
-    "            window = 1.0;\n"
-    "        } else {\n"
-    "            window = min(window, clamp((dot(plane.xyz, from_light) + plane.w) * 10.0 + 0.5, 0.0, 1.0));\n"
-    "        }\n"
-    "    }\n"
+    "        bool end = dot(plane.xyz, plane.xyz) == 0.0;\n"
+    "        float inside = clamp(dot(plane.xyz, f_position) + plane.w, 0.0, 1.0);\n"
+    "        lit = end ? max(lit, window) : lit;\n"
+    "        window = end ? 1.0 : min(window, inside);\n"
+    "    } while (++i <= last);\n"
     "    return lit;\n"
     "}\n"
     "\n"
-    "vec3 shine(int record, vec3 n) {\n"
-    "    vec4 place = texelFetch(lights, record), color = texelFetch(lights, record + 1);\n"
-    "    vec4 aim = texelFetch(lights, record + 2), more = texelFetch(lights, record + 3);\n"
+    "vec3 shine(int light, vec3 n) {\n"
+    "    vec4 place = uintBitsToFloat(texelFetch(lights, light));\n"
+    "    uvec4 more = texelFetch(lights, light + 1);\n"
     "    vec3 to = place.xyz - f_position;\n"
     "    float d2 = max(dot(to, to), 0.01);\n"
-    "    float in_range = d2 * place.w;\n"
-    "    vec3 l = to * inversesqrt(d2);\n"
-    "    float k = max(1.0 - in_range * in_range, 0.0) / d2;\n"
-    "    float cone = clamp(dot(aim.xyz, -l) * aim.w + more.x, 0.0, 1.0);\n"
-    "    if (color.w == 1.0) k *= cone * cone;\n"
-    "    if (color.w == 2.0) { l = -aim.xyz; k = 1.0; }\n"
-    "    k *= max(dot(n, l), 0.0);\n"
-    "    if (more.z > 0.0) k *= through_windows(-to, int(more.y), int(more.z));\n"
-    "    return color.rgb * k;\n"
+    "    float nearness = inversesqrt(d2), in_range = d2 * place.w;\n"
+    "    float k = max(dot(n, to) * nearness, 0.0) * max(1.0 - in_range * in_range, 0.0) * (nearness * nearness);\n"
+    "#ifdef SPOTS\n"
+    "    vec4 aim = uintBitsToFloat(texelFetch(lights, light + 2));\n"
+    "    float cone = clamp(aim.w - dot(aim.xyz, to) * nearness, 0.0, 1.0);\n"
+    "    k *= cone * cone;\n"
+    "#endif\n"
+    "#ifdef WINDOWS\n"
+    "    k *= through(more.w);\n"
+    "#endif\n"
+    "    return uintBitsToFloat(more.xyz) * k;\n"
     "}\n"
+    "#endif\n"
     "\n"
     "vec3 irradiance() {\n"
     "    vec3 n = normalize(gl_FrontFacing ? f_normal : -f_normal);\n"
     "    vec3 sum = mix(ground, sky, n.y * 0.5 + 0.5) + vec3(dot(n, key));\n"
-    "    int first = int(f_light_list >> 8u), last = first + int(f_light_list & 255u);\n"
-    "    for (int i = first; i < last; i++) sum += shine(int(texelFetch(light_items, i).r) * 4, n);\n"
+    "#ifdef LIGHTS\n"
+    "    int i = int(f_light_list >> 8u) * 3, last = i + int(f_light_list & 255u) * 3;\n"
+    "    do {\n"
+    "        sum += shine(i, n);\n"
+    "        i += 3;\n"
+    "    } while (i <= last);\n"
+    "    // A soft shoulder: linear in the dark, and no lamp burns its wall white.\n"
+    "    sum *= (1.0 + 0.1 * sum) / (1.0 + 0.35 * sum);\n"
+    "#endif\n"
     "    return sum;\n"
     "}\n"
     "#endif\n";
@@ -109,36 +129,59 @@ static const char fragment_main[] = "void main() {\n"
                                     "#elif defined(FLAT)\n"
                                     "    pixel = flat_color;\n"
                                     "#else\n"
-                                    "#if !defined(IDS) || defined(MASK)\n"
-                                    "    vec4 base = texture(base_texture, f_uv) * base_color * f_color;\n"
+                                    "    vec4 base = base_color * f_color;\n"
+                                    "#ifdef TEXTURE\n"
+                                    "    base *= texture(base_texture, f_uv);\n"
                                     "#endif\n"
                                     "#ifdef MASK\n"
                                     "    if (base.a < cutoff) discard;\n"
+                                    "    base.a = 1.0;\n"
                                     "#endif\n"
                                     "#ifdef IDS\n"
                                     "    uint id = texelFetch(clusters, primitive_first + gl_PrimitiveID).r + 1u;\n"
                                     "    pixel = vec4(id & 255u, (id >> 8u) & 255u, (id >> 16u) & 255u, id >> 24u) / 255.0;\n"
                                     "#else\n"
-                                    "    vec3 glow = emissive;\n"
-                                    "    if (has_emissive_texture != 0) glow *= texture(emissive_texture, f_uv).rgb;\n"
                                     "#ifdef LIT\n"
-                                    "    vec3 e = irradiance();\n"
-                                    "    // A soft shoulder: linear in the dark, 2 at most.\n"
-                                    "    base.rgb *= e * (1.0 + 0.1 * e) / (1.0 + 0.35 * e);\n"
+                                    "    base.rgb *= irradiance();\n"
                                     "#endif\n"
-                                    "    pixel = vec4(base.rgb + glow, base.a);\n"
-                                    "#ifdef MASK\n"
-                                    "    pixel.a = 1.0;\n"
+                                    "#ifdef GLOW\n"
+                                    "    base.rgb += emissive * texture(emissive_texture, f_uv).rgb;\n"
+                                    "#else\n"
+                                    "    base.rgb += emissive;\n"
                                     "#endif\n"
+                                    "    pixel = base;\n"
                                     "#endif\n"
                                     "#endif\n"
                                     "}\n";
 
-static const char *const defines[ENF_GL_PROGRAM_COUNT] = {
-#define ENF_GL_PROGRAM_DEFINES(name, text) text,
-    ENF_GL_PROGRAMS(ENF_GL_PROGRAM_DEFINES)
-#undef ENF_GL_PROGRAM_DEFINES
-};
+/* ---- variants --------------------------------------------------------------------------------------------------- */
+
+enum { DEFINES_SIZE = 256 };
+
+static void add_define(char defines[DEFINES_SIZE], bool wanted, const char *name) {
+    if (wanted) {
+        size_t used = strlen(defines);
+        snprintf(defines + used, DEFINES_SIZE - used, "#define %s\n", name);
+    }
+}
+
+static void write_defines(char defines[DEFINES_SIZE], int kind, uint32_t light_features) {
+    bool surface = kind < ENF_GL_PROGRAM_IDS, masked_ids = kind == ENF_GL_PROGRAM_IDS_MASK;
+    bool lit = surface && (kind & ENF_GL_LIT);
+    defines[0] = '\0';
+    add_define(defines, lit, "LIT");
+    add_define(defines, lit && (light_features & ENF_GL_LIGHTS), "LIGHTS");
+    add_define(defines, lit && (light_features & ENF_GL_WINDOWS), "WINDOWS");
+    add_define(defines, lit && (light_features & ENF_GL_SPOTS), "SPOTS");
+    add_define(defines, (surface && (kind & ENF_GL_MASK)) || masked_ids, "MASK");
+    add_define(defines, (surface && (kind & ENF_GL_TEXTURE)) || masked_ids, "TEXTURE");
+    add_define(defines, surface && (kind & ENF_GL_GLOW), "GLOW");
+    add_define(defines, kind == ENF_GL_PROGRAM_IDS || masked_ids, "IDS");
+    add_define(defines, kind == ENF_GL_PROGRAM_FLAT, "FLAT");
+    add_define(defines, kind == ENF_GL_PROGRAM_LINES, "LINES");
+}
+
+/* ---- programs --------------------------------------------------------------------------------------------------- */
 
 static const char version[] = "#version 330 core\n";
 
@@ -202,9 +245,12 @@ static EnfResult create_program(const EnfGlFunctions *gl, EnfGlProgram *program,
     return good ? ENF_OK : ENF_ERROR_SHADER;
 }
 
-EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], EnfError *error) {
+EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint32_t needed,
+                                 uint32_t light_features, EnfError *error) {
     for (int i = 0; i < ENF_GL_PROGRAM_COUNT; i++) {
-        EnfResult result = create_program(gl, &programs[i], defines[i], error);
+        char defines[DEFINES_SIZE];
+        write_defines(defines, i, light_features);
+        EnfResult result = needed >> i & 1u ? create_program(gl, &programs[i], defines, error) : ENF_OK;
         if (result != ENF_OK) {
             return result;
         }

@@ -4,23 +4,21 @@
 
 #include "gl/gl_functions.h"
 
-/** The variants: X(name, defines). */
-#define ENF_GL_PROGRAMS(X)                                                                                                     \
-    X(LIT, "#define LIT\n")                                                                                                    \
-    X(LIT_MASK, "#define LIT\n#define MASK\n")                                                                                 \
-    X(UNLIT, "#define UNLIT\n")                                                                                                \
-    X(UNLIT_MASK, "#define UNLIT\n#define MASK\n")                                                                             \
-    X(IDS, "#define IDS\n")                                                                                                    \
-    X(IDS_MASK, "#define IDS\n#define MASK\n")                                                                                 \
-    X(FLAT, "#define FLAT\n")                                                                                                  \
-    X(LINES, "#define LINES\n")
+/** A surface's variant is a sum of these: what its material lacks costs nothing. */
+enum { ENF_GL_LIT = 1, ENF_GL_MASK = 2, ENF_GL_TEXTURE = 4, ENF_GL_GLOW = 8 };
 
+/** Programs: the variants of surfaces by number, then those for other purposes. */
 typedef enum EnfGlProgramKind {
-#define ENF_GL_PROGRAM_ENUM(name, defines) ENF_GL_PROGRAM_##name,
-    ENF_GL_PROGRAMS(ENF_GL_PROGRAM_ENUM)
-#undef ENF_GL_PROGRAM_ENUM
-        ENF_GL_PROGRAM_COUNT
+    ENF_GL_PROGRAM_SURFACE = 0,
+    ENF_GL_PROGRAM_IDS = 16,
+    ENF_GL_PROGRAM_IDS_MASK,
+    ENF_GL_PROGRAM_FLAT,  /**< one colour, for wireframe */
+    ENF_GL_PROGRAM_LINES, /**< vertices of their own */
+    ENF_GL_PROGRAM_COUNT
 } EnfGlProgramKind;
+
+/** What the lights of a map need of the lit variants; or-ed. */
+enum { ENF_GL_LIGHTS = 1, ENF_GL_WINDOWS = 2, ENF_GL_SPOTS = 4 };
 
 /** Uniforms that change, X(name): locations by name. */
 #define ENF_GL_UNIFORMS(X)                                                                                                     \
@@ -30,7 +28,6 @@ typedef enum EnfGlProgramKind {
     X(base_color)                                                                                                              \
     X(emissive)                                                                                                                \
     X(cutoff)                                                                                                                  \
-    X(has_emissive_texture)                                                                                                    \
     X(ground)                                                                                                                  \
     X(sky)                                                                                                                     \
     X(key)                                                                                                                     \
@@ -50,9 +47,8 @@ typedef struct EnfGlProgram {
     X(EMISSIVE, 1, "emissive_texture")                                                                                         \
     X(OFFSETS, 2, "cell_offsets")                                                                                              \
     X(LIGHTS, 3, "lights")                                                                                                     \
-    X(ITEMS, 4, "light_items")                                                                                                 \
-    X(PLANES, 5, "light_planes")                                                                                               \
-    X(CLUSTERS, 6, "clusters")
+    X(PLANES, 4, "light_planes")                                                                                               \
+    X(CLUSTERS, 5, "clusters")
 
 enum {
 #define ENF_GL_UNIT_ENUM(name, unit, sampler) ENF_GL_UNIT_##name = unit,
@@ -70,8 +66,9 @@ enum {
     ENF_GL_ATTRIBUTE_LIGHT_LIST
 };
 
-/** Compiles and links all variants. SHADER with the driver's log. */
-EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], EnfError *error);
+/** Compiles and links the programs whose bits are set in `needed`; the others stay 0. SHADER with the driver's log. */
+EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint32_t needed,
+                                 uint32_t light_features, EnfError *error);
 void enf_gl_programs_destroy(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT]);
 
 #endif

@@ -81,11 +81,11 @@ static EnfResult upload_light_lists(EnfGl *gl, const EnfGlLights *lights, EnfErr
 static EnfResult upload_lights(EnfGl *gl, EnfError *error) {
     EnfGlLights lights;
     EnfResult result = enf_gl_lights_build(&lights, gl->map, error);
-    TableData records = {"lights", GL_RGBA32F, lights.records, (size_t)lights.record_count * ENF_GL_LIGHT_FLOATS / 4, 16};
-    TableData items = {"lists of lights", GL_R32UI, lights.items, lights.item_count, sizeof(uint32_t)};
+    TableData records = {"lights", GL_RGBA32UI, lights.lights, (size_t)lights.light_count * 3, 16};
     TableData planes = {"light windows", GL_RGBA32F, lights.planes, lights.plane_count, 16};
+    gl->light_features = (gl->map->lights_count ? ENF_GL_LIGHTS : 0u) | (lights.has_windows ? ENF_GL_WINDOWS : 0u) |
+                         (lights.has_spots ? ENF_GL_SPOTS : 0u);
     if (result == ENF_OK && (result = create_table(gl, &gl->lights, &records, error)) == ENF_OK &&
-        (result = create_table(gl, &gl->light_items, &items, error)) == ENF_OK &&
         (result = create_table(gl, &gl->light_planes, &planes, error)) == ENF_OK) {
         result = upload_light_lists(gl, &lights, error);
     }
@@ -174,7 +174,6 @@ void enf_gl_free_geometry(EnfGl *gl) {
     gl->f.DeleteBuffers(4, buffers);
     free_table(gl, &gl->offsets);
     free_table(gl, &gl->lights);
-    free_table(gl, &gl->light_items);
     free_table(gl, &gl->light_planes);
     free_table(gl, &gl->clusters);
     enf_free(NULL, gl->offset_staging, (size_t)map->cells_count + 1, sizeof *gl->offset_staging);

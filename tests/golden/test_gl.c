@@ -390,26 +390,22 @@ static void lights_are_listed_where_they_reach(void **state) {
     EnfRooms rooms = make_rooms();
     EnfGlLights lights;
     assert_int_equal(enf_gl_lights_build(&lights, rooms.map, NULL), ENF_OK);
+    assert_false(lights.has_windows || lights.has_spots);
     for (uint32_t c = 0; c < rooms.map->clusters_count; c++) {
-        const EnfCluster *cluster = &rooms.map->clusters[c];
-        uint32_t first = lights.cluster_lists[c] >> 8, count = lights.cluster_lists[c] & 255u;
-        assert_true(count <= rooms.map->cells[cluster->cell].light_count);
-        assert_true(first + count <= lights.item_count);
-        for (uint32_t i = first; i < first + count; i++) {
-            assert_true(lights.items[i] < lights.record_count);
-        }
+        uint32_t first = lights.cluster_lists[c] >> 8, count = (lights.cluster_lists[c] & 255u) + 1;
+        assert_true(count <= rooms.map->cells[rooms.map->clusters[c].cell].light_count);
+        assert_true(first + count <= lights.light_count);
     }
     enf_gl_lights_free(&lights);
     enf_rooms_destroy(&rooms);
 }
 
-/* Two references of one light are one record with two windows; a light out of range or out of its windows is not listed. */
-static void references_of_a_light_are_one_record(void **state) {
+/* Two references of one light are one light with two windows; one out of range or out of its windows is not listed. */
+static void references_of_a_light_are_one(void **state) {
     (void)state;
     EnfCell cell = {.cluster_count = 3, .light_count = 3};
-    EnfCluster clusters[3] = {{{1, 0, 0}, {2, 1, 1}, 0, 0, 0, 0, 0, 0, 0, 0},
-                              {{-2, 0, 0}, {-1, 1, 1}, 0, 0, 0, 0, 0, 0, 0, 0},
-                              {{1, 0, 50}, {2, 1, 51}, 0, 0, 0, 0, 0, 0, 0, 0}};
+    EnfCluster clusters[3] = {
+        {.min = {1, 0, 0}, .max = {2, 1, 1}}, {.min = {-2, 0, 0}, .max = {-1, 1, 1}}, {.min = {1, 0, 50}, .max = {2, 1, 51}}};
     EnfLight list[2] = {{.color = {1, 1, 1}, .range = 10}, {.color = {1, 1, 1}, .range = 10, .position = {0, 0, 45}}};
     EnfPlane4f planes[2] = {{{1, 0, 0}, 0}, {{1, 0, 0}, -0.5f}};
     EnfLightRef refs[3] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 1}};
@@ -426,12 +422,14 @@ static void references_of_a_light_are_one_record(void **state) {
     map.light_planes_count = 2;
     EnfGlLights lights;
     assert_int_equal(enf_gl_lights_build(&lights, &map, NULL), ENF_OK);
-    assert_int_equal(lights.record_count, 2);
-    assert_int_equal(lights.plane_count, 4);             /* two planes, two ends */
-    assert_int_equal(lights.cluster_lists[0] & 255u, 1); /* in the window */
-    assert_int_equal(lights.cluster_lists[1] & 255u, 0); /* outside of both windows */
-    assert_int_equal(lights.cluster_lists[2] & 255u, 1); /* near the second light alone */
-    assert_int_equal(lights.items[lights.cluster_lists[2] >> 8], 1);
+    assert_true(lights.has_windows);
+    assert_int_equal(lights.plane_count, 1 + 4);        /* one that lights all; two planes, two ends */
+    assert_int_equal(lights.light_count, 1 + 2);        /* the dark one; one a lit cluster */
+    assert_int_equal(lights.cluster_lists[0], 1u << 8); /* the first light, in its windows */
+    assert_int_equal(lights.lights[1].windows & 63u, 3);
+    assert_int_equal(lights.cluster_lists[1], 0);       /* outside of both windows: dark */
+    assert_int_equal(lights.cluster_lists[2], 2u << 8); /* the second light, which has none */
+    assert_int_equal(lights.lights[2].windows, 0);
     enf_gl_lights_free(&lights);
 }
 
@@ -486,16 +484,11 @@ static void failures_are_reported(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(culled_equals_unculled_with_egl),
-    cmocka_unit_test(culled_equals_unculled_with_osmesa),
-    cmocka_unit_test(both_contexts_draw_the_same),
-    cmocka_unit_test(ids_name_what_rays_hit),
-    cmocka_unit_test(unlit_texels_come_out_unchanged),
-    cmocka_unit_test(blending_is_linear_and_ids_take_the_front),
-    cmocka_unit_test(masks_cut_colour_and_ids_alike),
-    cmocka_unit_test(lights_are_listed_where_they_reach),
-    cmocka_unit_test(references_of_a_light_are_one_record),
-    cmocka_unit_test(lines_and_wireframe_draw_over_the_picture),
+    cmocka_unit_test(culled_equals_unculled_with_egl), cmocka_unit_test(culled_equals_unculled_with_osmesa),
+    cmocka_unit_test(both_contexts_draw_the_same),     cmocka_unit_test(ids_name_what_rays_hit),
+    cmocka_unit_test(unlit_texels_come_out_unchanged), cmocka_unit_test(blending_is_linear_and_ids_take_the_front),
+    cmocka_unit_test(masks_cut_colour_and_ids_alike),  cmocka_unit_test(lights_are_listed_where_they_reach),
+    cmocka_unit_test(references_of_a_light_are_one),   cmocka_unit_test(lines_and_wireframe_draw_over_the_picture),
     cmocka_unit_test(failures_are_reported),
 };
 
