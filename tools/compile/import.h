@@ -12,6 +12,7 @@
 #define ENF_IMPORT_MAX_MEMORY (UINT64_C(2) << 30)    /* bytes of decoded geometry and scratch */
 #define ENF_IMPORT_MAX_PIXELS (UINT64_C(1) << 30)    /* bytes of all decoded images */
 #define ENF_IMPORT_MAX_IMAGE 16384                   /* pixels a side */
+#define ENF_IMPORT_MAX_ELEMENTS (UINT32_C(1) << 26)  /* vertices or indices of one primitive */
 #define ENF_IMPORT_MAX_NODES (UINT32_C(1) << 21)     /* instances counted */
 #define ENF_IMPORT_MAX_TRIANGLES (UINT64_C(1) << 26) /* instances counted */
 

@@ -32,8 +32,8 @@ static EnfResult read_order(MeshReader *reader, const EnfGltfPrimitive *from, ui
     EnfImport *import = reader->import;
     const EnfGltfAccessor *accessors = import->gltf.accessors;
     *count = (uint32_t)accessors[from->indices != ENF_NONE ? from->indices : from->position].count;
-    if (*count > ENF_IMPORT_MAX_MEMORY / sizeof(uint32_t)) {
-        return refuse(reader, ENF_ERROR_SIZE, "too many indices");
+    if (*count > ENF_IMPORT_MAX_ELEMENTS || accessors[from->position].count > ENF_IMPORT_MAX_ELEMENTS) {
+        return refuse(reader, ENF_ERROR_SIZE, "too many vertices or indices");
     }
     if (*count > reader->order_capacity) {
         uint32_t *grown = enf_realloc(NULL, reader->order, reader->order_capacity, *count, sizeof *grown);
