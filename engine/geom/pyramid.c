@@ -22,30 +22,29 @@
 
 /* What is common to all planes of a pyramid. */
 typedef struct Frame {
-    EnfVec3 offset;     /* origin - eye */
+    const EnfCamera *camera;
+    EnfVec3 offset;     /* origin - eye, in the camera's frame */
     EnfVec3 reach;      /* largest absolute coordinates within bounds */
     double fixed_error; /* 2^-48 (|B|_1 + |o|_1) */
 } Frame;
 
-static double largest(float a, float b) {
-    return fmax(fabs((double)a), fabs((double)b));
+static double larger(float a, float b) {
+    double x = fabs((double)a), y = fabs((double)b);
+    return x > y ? x : y;
 }
 
-static Frame make_frame(const EnfCamera *camera, EnfVec3 origin_ws, EnfBox3f bounds) {
+static inline Frame make_frame(const EnfCamera *camera, EnfVec3 origin_ws, EnfBox3f bounds) {
+    EnfVec3 o = enf_sub(origin_ws, camera->eye_ws);
     Frame f;
-    f.offset = enf_sub(origin_ws, camera->eye_ws);
-    f.reach = enf_v3(largest(bounds.min.x, bounds.max.x), largest(bounds.min.y, bounds.max.y),
-                     largest(bounds.min.z, bounds.max.z));
-    f.fixed_error = 0x1p-48 * (f.reach.x + f.reach.y + f.reach.z + fabs(f.offset.x) + fabs(f.offset.y) + fabs(f.offset.z));
+    f.camera = camera;
+    f.offset = enf_v3(enf_dot(o, camera->right), enf_dot(o, camera->up), enf_dot(o, camera->forward));
+    f.reach = enf_v3(larger(bounds.min.x, bounds.max.x), larger(bounds.min.y, bounds.max.y),
+                     larger(bounds.min.z, bounds.max.z));
+    f.fixed_error = 0x1p-48 * (f.reach.x + f.reach.y + f.reach.z + fabs(o.x) + fabs(o.y) + fabs(o.z));
     return f;
 }
 
-/* Adds the plane whose inside is where a (p·right) + b (p·up) + c (p·forward) >= 0. */
-static void add_plane(EnfPyramid *out, const EnfCamera *camera, const Frame *f, double a, double b, double c) {
-    double scale = 1.0 / sqrt(a * a + b * b + c * c);
-    EnfVec3 n = enf_add(enf_add(enf_scale(camera->right, a * scale), enf_scale(camera->up, b * scale)),
-                        enf_scale(camera->forward, c * scale));
-    double d = enf_dot(n, f->offset);
+static inline void add_plane(EnfPyramid *out, const Frame *f, EnfVec3 n, double d) {
     double sum = fabs(n.x) * f->reach.x + fabs(n.y) * f->reach.y + fabs(n.z) * f->reach.z;
     double raised = d + (7.0 * 0x1p-24 * sum + 4.0 * 0x1p-24 * fabs(d) + f->fixed_error);
     if (!(sum + fabs(raised) < LARGEST_SUM)) {
@@ -59,8 +58,24 @@ static void add_plane(EnfPyramid *out, const EnfCamera *camera, const Frame *f, 
     out->d[i] = (float)raised;
 }
 
+/* The side of a window: where sign * p·axis + k p·forward >= 0; `along` is the offset along that axis. */
+static inline void add_side(EnfPyramid *out, const Frame *f, EnfVec3 axis, double along, double sign, double k) {
+    double scale = 1.0 / sqrt(1.0 + k * k), a = sign * scale, c = k * scale;
+    EnfVec3 n = enf_add(enf_scale(axis, a), enf_scale(f->camera->forward, c));
+    add_plane(out, f, n, a * along + c * f->offset.z);
+}
+
+/* The plane whose inside is where v.x (p·right) + v.y (p·up) + v.z (p·forward) >= 0. */
+static void add_oblique(EnfPyramid *out, const Frame *f, EnfVec3 v) {
+    const EnfCamera *camera = f->camera;
+    v = enf_scale(v, 1.0 / sqrt(enf_dot(v, v)));
+    EnfVec3 n = enf_add(enf_add(enf_scale(camera->right, v.x), enf_scale(camera->up, v.y)), enf_scale(camera->forward, v.z));
+    add_plane(out, f, n, enf_dot(v, f->offset));
+}
+
 /* A point is seen at X = cx + (p·right / p·forward) cx / tan_x, cx the middle of the picture, and likewise Y. */
-static void add_edges(EnfPyramid *out, const EnfCamera *camera, const Frame *f, const EnfWindowPolygon *p) {
+static void add_edges(EnfPyramid *out, const Frame *f, const EnfWindowPolygon *p) {
+    const EnfCamera *camera = f->camera;
     double cx = 0.5 * ENF_WINDOW_STEPS * (double)camera->width_px, cy = 0.5 * ENF_WINDOW_STEPS * (double)camera->height_px;
     double sx = cx / camera->tan_x, sy = cy / camera->tan_y;
     for (uint32_t i = 0; i < p->count; i++) {
@@ -71,7 +86,7 @@ static void add_edges(EnfPyramid *out, const EnfCamera *camera, const Frame *f, 
         }
         /* Left of the edge: dx (Y - ay) - dy (X - ax) >= 0, times the depth. The products below are exact. */
         double depth = dy * ((double)p->x[i] - cx) - dx * ((double)p->y[i] - cy);
-        add_plane(out, camera, f, -dy * sx, dx * sy, depth);
+        add_oblique(out, f, enf_v3(-dy * sx, dx * sy, depth));
     }
 }
 
@@ -81,13 +96,13 @@ void enf_pyramid(const EnfCamera *camera, EnfWindow window, const EnfWindowPolyg
     double cx = 0.5 * ENF_WINDOW_STEPS * (double)camera->width_px, cy = 0.5 * ENF_WINDOW_STEPS * (double)camera->height_px;
     double kx = camera->tan_x / cx, ky = camera->tan_y / cy;
     out->count = 0;
-    add_plane(out, camera, &f, 1.0, 0.0, -((double)window.x0 - cx) * kx);
-    add_plane(out, camera, &f, -1.0, 0.0, ((double)window.x1 - cx) * kx);
-    add_plane(out, camera, &f, 0.0, 1.0, -((double)window.y0 - cy) * ky);
-    add_plane(out, camera, &f, 0.0, -1.0, ((double)window.y1 - cy) * ky);
-    add_plane(out, camera, &f, 0.0, 0.0, 1.0);
+    add_side(out, &f, camera->right, f.offset.x, 1.0, (cx - (double)window.x0) * kx);
+    add_side(out, &f, camera->right, f.offset.x, -1.0, ((double)window.x1 - cx) * kx);
+    add_side(out, &f, camera->up, f.offset.y, 1.0, (cy - (double)window.y0) * ky);
+    add_side(out, &f, camera->up, f.offset.y, -1.0, ((double)window.y1 - cy) * ky);
+    add_plane(out, &f, camera->forward, f.offset.z);
     if (polygon) {
-        add_edges(out, camera, &f, polygon);
+        add_edges(out, &f, polygon);
     }
 }
 
