@@ -12,10 +12,12 @@ import sources
 
 
 def check(tool, build, path, root):
-    """The findings of one file, as clang-tidy words them. Flags that only gcc knows are no findings."""
+    """The findings of one file, as clang-tidy words them. Headers of others and flags that only gcc knows are no findings."""
     command = [tool, "--quiet", "-p", build, "--extra-arg=-Wno-unknown-warning-option", path]
     run = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
-    return [line for line in run.stdout.splitlines() if ": warning:" in line or ": error:" in line]
+    own = os.path.realpath(root) + os.sep
+    return [line for line in run.stdout.splitlines()
+            if (": warning:" in line or ": error:" in line) and os.path.realpath(line.split(":")[0]).startswith(own)]
 
 
 def database_files(build, root):
