@@ -264,8 +264,7 @@ static void build_nodes(Builder *b, uint32_t count) {
 
 /* ---- memory ----------------------------------------------------------------------------------------------------- */
 
-static EnfResult read_boxes(BuildItem *to, const EnfBox3f *boxes, const uint32_t *items, uint32_t count,
-                            EnfError *error) {
+static EnfResult read_boxes(BuildItem *to, const EnfBox3f *boxes, const uint32_t *items, uint32_t count, EnfError *error) {
     for (uint32_t i = 0; i < count; i++) {
         const float *min = &boxes[i].min.x, *max = &boxes[i].max.x;
         to[i].box = boxes[i];

@@ -193,8 +193,7 @@ static double ray_leaf(const EnfKdTree *tree, const EnfKdNode *leaf, const Ray *
         const EnfKdBlock *block = &tree->blocks[leaf->link + b];
         for (uint32_t i = 0; i < ENF_KD_BLOCK; i++) {
             double t;
-            if (block->item[i] != ENF_NONE &&
-                ray_hits(ray, block->min_x + i, block->max_x + i, ENF_KD_BLOCK, t_max, &t)) {
+            if (block->item[i] != ENF_NONE && ray_hits(ray, block->min_x + i, block->max_x + i, ENF_KD_BLOCK, t_max, &t)) {
                 t_max = visit(user, block->item[i], t_max);
             }
         }

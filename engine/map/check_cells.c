@@ -18,8 +18,8 @@ static EnfResult check_cell(const EnfMapCheck *check, uint32_t i) {
                                cell->origin[axis]);
         }
         if (cell->min[axis] > cell->max[axis]) {
-            return ENF_MAP_BAD(check, cells, i, min[axis], ENF_ERROR_RANGE, "%g is above max %g",
-                               (double)cell->min[axis], (double)cell->max[axis]);
+            return ENF_MAP_BAD(check, cells, i, min[axis], ENF_ERROR_RANGE, "%g is above max %g", (double)cell->min[axis],
+                               (double)cell->max[axis]);
         }
     }
     for (uint32_t p = cell->portal_first; p < cell->portal_first + cell->portal_count; p++) {

@@ -20,8 +20,8 @@ static EnfResult check_cluster_indices(const EnfMapCheck *check, uint32_t i) {
         }
         const EnfVertex *vertex = &map->vertices[index];
         if (vertex->cell != cluster->cell) {
-            return ENF_MAP_BAD(check, vertices, index, cell, ENF_ERROR_INDEX, "%u is not the cell of cluster %u",
-                               vertex->cell, i);
+            return ENF_MAP_BAD(check, vertices, index, cell, ENF_ERROR_INDEX, "%u is not the cell of cluster %u", vertex->cell,
+                               i);
         }
         for (int axis = 0; axis < 3; axis++) {
             if (vertex->position[axis] < cluster->min[axis] || vertex->position[axis] > cluster->max[axis]) {
@@ -37,13 +37,13 @@ static EnfResult check_cluster(const EnfMapCheck *check, uint32_t i) {
     const EnfMap *map = check->map;
     const EnfCluster *cluster = &map->clusters[i];
     if (cluster->index_count == 0 || cluster->index_count % 3 || cluster->index_count > 3 * CLUSTER_TRIANGLES_MAX) {
-        return ENF_MAP_BAD(check, clusters, i, index_count, ENF_ERROR_RANGE, "%u is not 3 times 1..%d",
-                           cluster->index_count, CLUSTER_TRIANGLES_MAX);
+        return ENF_MAP_BAD(check, clusters, i, index_count, ENF_ERROR_RANGE, "%u is not 3 times 1..%d", cluster->index_count,
+                           CLUSTER_TRIANGLES_MAX);
     }
     for (int axis = 0; axis < 3; axis++) {
         if (cluster->min[axis] > cluster->max[axis]) {
-            return ENF_MAP_BAD(check, clusters, i, min[axis], ENF_ERROR_RANGE, "%g is above max %g",
-                               (double)cluster->min[axis], (double)cluster->max[axis]);
+            return ENF_MAP_BAD(check, clusters, i, min[axis], ENF_ERROR_RANGE, "%g is above max %g", (double)cluster->min[axis],
+                               (double)cluster->max[axis]);
         }
     }
     const EnfCluster *before = i ? cluster - 1 : cluster;
@@ -67,8 +67,8 @@ typedef struct Stamps {
 static EnfResult tree_bad(const EnfMapCheck *check, EnfMapChunkId id, uint32_t node_first, const char *whose, uint32_t cell,
                           const EnfError *inner) {
     EnfMapChunk chunk = enf_map_chunk(check->map, id);
-    return enf_map_bad(check, id, (const EnfKdNode *)chunk.data + node_first, "", inner->code, "the tree of %s %u: %s",
-                       whose, cell, inner->message);
+    return enf_map_bad(check, id, (const EnfKdNode *)chunk.data + node_first, "", inner->code, "the tree of %s %u: %s", whose,
+                       cell, inner->message);
 }
 
 static bool lane_holds(const EnfKdBlock *b, uint32_t lane, const float *min, const float *max) {
@@ -76,8 +76,7 @@ static bool lane_holds(const EnfKdBlock *b, uint32_t lane, const float *min, con
            b->max_y[lane] >= max[1] && b->max_z[lane] >= max[2];
 }
 
-static EnfResult check_cell_block(const EnfMapCheck *check, uint32_t cell, uint32_t block, Stamps *stamps,
-                                  uint32_t *own) {
+static EnfResult check_cell_block(const EnfMapCheck *check, uint32_t cell, uint32_t block, Stamps *stamps, uint32_t *own) {
     const EnfMap *map = check->map;
     const EnfKdBlock *b = &map->kd_blocks[block];
     for (uint32_t lane = 0; lane < ENF_KD_BLOCK; lane++) {
@@ -86,8 +85,8 @@ static EnfResult check_cell_block(const EnfMapCheck *check, uint32_t cell, uint3
             continue;
         }
         if (stamps->seen[item] == cell + 1) {
-            return ENF_MAP_BAD(check, kd_blocks, block, item[lane], ENF_ERROR_INDEX, "%u is in the tree of cell %u twice",
-                               item, cell);
+            return ENF_MAP_BAD(check, kd_blocks, block, item[lane], ENF_ERROR_INDEX, "%u is in the tree of cell %u twice", item,
+                               cell);
         }
         stamps->seen[item] = cell + 1;
         const EnfCluster *cluster = &map->clusters[item];
@@ -96,8 +95,7 @@ static EnfResult check_cell_block(const EnfMapCheck *check, uint32_t cell, uint3
         }
         (*own)++;
         if (!lane_holds(b, lane, cluster->min, cluster->max)) {
-            return ENF_MAP_BAD(check, kd_blocks, block, min_x[lane], ENF_ERROR_RANGE, "the box does not hold cluster %u",
-                               item);
+            return ENF_MAP_BAD(check, kd_blocks, block, min_x[lane], ENF_ERROR_RANGE, "the box does not hold cluster %u", item);
         }
     }
     return ENF_OK;
@@ -152,8 +150,8 @@ static EnfResult check_tree_of_cells(const EnfMapCheck *check, Stamps *stamps) {
                 continue;
             }
             if (stamps->seen[item] || map->cells[item].flags & ENF_CELL_OUTSIDE) {
-                return ENF_MAP_BAD(check, cell_blocks, b, item[lane], ENF_ERROR_INDEX, "cell %u is there twice, or is the outside",
-                                   item);
+                return ENF_MAP_BAD(check, cell_blocks, b, item[lane], ENF_ERROR_INDEX,
+                                   "cell %u is there twice, or is the outside", item);
             }
             stamps->seen[item] = 1;
             found++;

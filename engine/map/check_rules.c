@@ -44,11 +44,11 @@ typedef struct Rule {
     const char *field;
 } Rule;
 
-#define FIELD(type, array, field, kind, n)                                                                             \
+#define FIELD(type, array, field, kind, n)                                                                                     \
     { ENF_CHUNK_##array, RULE_##kind, (uint32_t)offsetof(type, field), (n), #field }
 #define STRING(type, array, field) FIELD(type, array, field, INDEX, ENF_CHUNK_strings)
 /* A record that is one value, or n equal ones. */
-#define VALUE(array, kind, n)                                                                                          \
+#define VALUE(array, kind, n)                                                                                                  \
     { ENF_CHUNK_##array, RULE_##kind, 0, (n), "" }
 
 static const Rule rules[] = {
@@ -142,8 +142,7 @@ static uint32_t load_u32(const char *at) {
 
 static EnfResult fail(const EnfMapCheck *check, const Rule *rule, const char *at, EnfResult code, const char *text,
                       const char *table) {
-    return enf_map_bad(check, rule->chunk, at, rule->field, code, "%u (0x%08x) %s%s", load_u32(at), load_u32(at), text,
-                       table);
+    return enf_map_bad(check, rule->chunk, at, rule->field, code, "%u (0x%08x) %s%s", load_u32(at), load_u32(at), text, table);
 }
 
 static EnfResult check_floats(const EnfMapCheck *check, const Rule *rule, const char *at) {
@@ -181,8 +180,7 @@ static EnfResult check_number(const EnfMapCheck *check, const Rule *rule, const 
     case RULE_RANGE:
         return value <= table_count && load_u32(at + 4) <= table_count - value
                    ? ENF_OK
-                   : fail(check, rule, at, ENF_ERROR_INDEX, "and its count reach outside ",
-                          enf_map_chunk_info[rule->n].name);
+                   : fail(check, rule, at, ENF_ERROR_INDEX, "and its count reach outside ", enf_map_chunk_info[rule->n].name);
     case RULE_BELOW:
         return value < rule->n ? ENF_OK : fail(check, rule, at, ENF_ERROR_RANGE, "is none of the known values", "");
     case RULE_FLAGS:

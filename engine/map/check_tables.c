@@ -9,12 +9,10 @@ static EnfResult check_images(const EnfMapCheck *check) {
     for (uint32_t i = 0; i < map->images_count; i++) {
         const EnfImage *image = &map->images[i];
         if (image->width == 0 || image->width > IMAGE_SIDE_MAX) {
-            return ENF_MAP_BAD(check, images, i, width, ENF_ERROR_RANGE, "%u is not in 1..%u", image->width,
-                               IMAGE_SIDE_MAX);
+            return ENF_MAP_BAD(check, images, i, width, ENF_ERROR_RANGE, "%u is not in 1..%u", image->width, IMAGE_SIDE_MAX);
         }
         if (image->height == 0 || image->height > IMAGE_SIDE_MAX) {
-            return ENF_MAP_BAD(check, images, i, height, ENF_ERROR_RANGE, "%u is not in 1..%u", image->height,
-                               IMAGE_SIDE_MAX);
+            return ENF_MAP_BAD(check, images, i, height, ENF_ERROR_RANGE, "%u is not in 1..%u", image->height, IMAGE_SIDE_MAX);
         }
         uint64_t bytes = UINT64_C(4) * image->width * image->height;
         if (image->byte_first > map->pixels_count || bytes > map->pixels_count - image->byte_first) {

@@ -24,11 +24,11 @@ _Static_assert(sizeof(EnfKdNode) == 32, "EnfKdNode");
 _Static_assert(sizeof(EnfKdBlock) == 224, "EnfKdBlock");
 
 const EnfMapChunkInfo enf_map_chunk_info[ENF_MAP_CHUNK_COUNT] = {
-#define ENF_MAP_CHUNK_INFO(type, array, fourcc)                                                                        \
+#define ENF_MAP_CHUNK_INFO(type, array, fourcc)                                                                                \
     {fourcc, #array, (uint32_t)sizeof(type), offsetof(EnfMap, array), offsetof(EnfMap, array##_count)},
     ENF_MAP_CHUNKS(ENF_MAP_CHUNK_INFO)
 #undef ENF_MAP_CHUNK_INFO
-    {"ORIG", "tree_origin", (uint32_t)sizeof(double[3]), 0, 0}};
+        {"ORIG", "tree_origin", (uint32_t)sizeof(double[3]), 0, 0}};
 
 EnfMapChunk enf_map_chunk(const EnfMap *map, EnfMapChunkId id) {
     const EnfMapChunkInfo *info = &enf_map_chunk_info[id];

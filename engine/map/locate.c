@@ -1,7 +1,8 @@
 /* A point → the cell that it lies in, for spawn and teleport (DESIGN §3; a walking eye is tracked: track.c).
  *
  * A `-bound` decides by its planes. Else a few rays ask what they meet first: the front of a shell or the opening of a portal
- * from within is "inside", their backs "outside"; a leak misleads some rays but not most. */
+ * from within is "inside", their backs "outside"; a leak misleads some rays but not most. A point within a thing (an eye that walks
+ * through a barrel) sees that thing's back all round: it is asked again without it. */
 #include "map/map_internal.h"
 #include <enfilade/tolerances.h>
 
@@ -15,15 +16,24 @@ static const EnfVec3 probes[] = {{0.57735, 0.71934, 0.38621},
                                  {0.27413, -0.63177, 0.72514},
                                  {-0.41273, -0.54318, -0.73131},
                                  {0.68713, 0.19136, -0.70092}};
-enum { PROBE_COUNT = sizeof probes / sizeof *probes, CANDIDATES_MAX = 64 };
+enum { PROBE_COUNT = sizeof probes / sizeof *probes, PROBES_INSIDE = PROBE_COUNT / 2 + 1, CANDIDATES_MAX = 64 };
 
 /* ---- one cell --------------------------------------------------------------------------------------------------- */
+
+static double cell_volume(const EnfCell *cell) {
+    double volume = 1.0;
+    for (int axis = 0; axis < 3; axis++) {
+        volume *= (double)cell->max[axis] - (double)cell->min[axis];
+    }
+    return volume;
+}
 
 /* What counts as the cell's shell. Decals, curtains and leaves are no walls, so a surface seen from both sides is left out; but
  * where most of the cell is double-sided (Blender's default), its winding is all there is to go by. */
 typedef struct Shell {
     uint32_t cell;
     bool double_sided;
+    uint32_t without; /* a node's name: what the point is inside of, or ENF_NONE */
 } Shell;
 
 static double cluster_area(const EnfMap *map, const EnfCluster *cluster) {
@@ -45,7 +55,23 @@ static Shell shell_of(const EnfMap *map, uint32_t cell) {
             *(material->flags & ENF_MATERIAL_DOUBLE_SIDED ? &both : &single) += cluster_area(map, &map->clusters[i]);
         }
     }
-    return (Shell){cell, both > single};
+    return (Shell){cell, both > single, ENF_NONE};
+}
+
+/* Is the node a thing in the cell, rather than what the cell is made of? Its box is less than half of the cell's. */
+static bool is_thing(const EnfMap *map, uint32_t cell, uint32_t node) {
+    const EnfCell *c = &map->cells[cell];
+    EnfBox3 box = enf_box3_empty();
+    for (uint32_t i = c->cluster_first; i < c->cluster_first + c->cluster_count; i++) {
+        const EnfCluster *cluster = &map->clusters[i];
+        if (cluster->node == node) {
+            EnfBox3f own = {{cluster->min[0], cluster->min[1], cluster->min[2]},
+                            {cluster->max[0], cluster->max[1], cluster->max[2]}};
+            box = enf_box3_union(box, enf_box3_from_f(own));
+        }
+    }
+    EnfVec3 size = enf_sub(box.max, box.min);
+    return 2.0 * size.x * size.y * size.z < cell_volume(c);
 }
 
 static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
@@ -53,7 +79,8 @@ static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
     const EnfCluster *cluster = &map->clusters[index];
     const EnfMaterial *material = &map->materials[cluster->material];
     return cluster->cell == shell->cell && material->alpha_mode == ENF_ALPHA_OPAQUE &&
-           (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED));
+           (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED)) &&
+           (shell->without == ENF_NONE || cluster->node != shell->without);
 }
 
 /* The nearest opening of the cell before *t: from within, a ray leaves by it along its normal. A point on an opening is in both
@@ -80,17 +107,37 @@ static void probe_portals(const EnfMap *map, uint32_t cell, EnfVec3 local, EnfVe
     }
 }
 
-/* What the ray meets first says inside; nothing met is outside. */
-static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 direction) {
+/* What the ray meets first says inside; nothing met is outside. `*behind`: the node whose back it was, or ENF_NONE. */
+static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 direction, uint32_t *behind) {
     EnfRayHit hit;
     double t = HUGE_VAL;
     bool inside = false;
+    *behind = ENF_NONE;
     if (enf_map_ray_among(map, shell->cell, p_ws, direction, HUGE_VAL, &hit, shell_wanted, shell)) {
         t = hit.t;
         inside = hit.front;
+        *behind = inside ? ENF_NONE : map->clusters[hit.cluster].node;
     }
     probe_portals(map, shell->cell, enf_sub(p_ws, enf_map_origin(map, shell->cell)), direction, &t, &inside);
     return inside;
+}
+
+/* The majority of the probes. `*enclosing`: the node whose back all of them met but at most one, or ENF_NONE. */
+static bool vote(const EnfMap *map, Shell *shell, EnfVec3 p_ws, uint32_t *enclosing) {
+    uint32_t behind[PROBE_COUNT];
+    int votes = 0;
+    for (int i = 0; i < PROBE_COUNT; i++) {
+        votes += probe(map, shell, p_ws, probes[i], &behind[i]);
+    }
+    *enclosing = ENF_NONE;
+    for (int i = 0; i < 2; i++) {
+        int same = 0;
+        for (int k = 0; k < PROBE_COUNT; k++) {
+            same += behind[k] == behind[i];
+        }
+        *enclosing = same >= PROBE_COUNT - 1 ? behind[i] : *enclosing;
+    }
+    return votes >= PROBES_INSIDE;
 }
 
 static bool within_bounds(const EnfCell *cell, EnfVec3 local) {
@@ -122,22 +169,15 @@ bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
         return false;
     }
     Shell shell = shell_of(map, cell);
-    int votes = 0;
-    for (int i = 0; i < PROBE_COUNT; i++) {
-        votes += probe(map, &shell, p_ws, probes[i]);
+    bool inside = vote(map, &shell, p_ws, &shell.without);
+    if (!inside && shell.without != ENF_NONE && is_thing(map, cell, shell.without)) {
+        uint32_t enclosing;
+        inside = vote(map, &shell, p_ws, &enclosing);
     }
-    return votes > PROBE_COUNT / 2;
+    return inside;
 }
 
 /* ---- all cells -------------------------------------------------------------------------------------------------- */
-
-static double cell_volume(const EnfCell *cell) {
-    double volume = 1.0;
-    for (int axis = 0; axis < 3; axis++) {
-        volume *= (double)cell->max[axis] - (double)cell->min[axis];
-    }
-    return volume;
-}
 
 /* Does `a` win over `b` where both contain the point? */
 static bool wins(const EnfMap *map, uint32_t a, uint32_t b) {

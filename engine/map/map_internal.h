@@ -15,17 +15,17 @@ typedef enum EnfMapChunkId {
 
 /* The header, 64 bytes: where each field lies. CRC_HEADER covers header and chunk table, itself taken as 0. */
 enum {
-    ENF_MAP_AT_MAGIC = 0,         /* 8 bytes */
-    ENF_MAP_AT_VERSION = 8,       /* u32 */
-    ENF_MAP_AT_ENDIAN = 12,       /* u32 */
-    ENF_MAP_AT_FILE_SIZE = 16,    /* u64 */
-    ENF_MAP_AT_SOURCE_HASH = 24,  /* u64 */
-    ENF_MAP_AT_HASH = 32,         /* u64 */
-    ENF_MAP_AT_CHUNK_COUNT = 40,  /* u32 */
-    ENF_MAP_AT_CRC_HEADER = 44,   /* u32 */
-    ENF_MAP_AT_RESERVED = 48,     /* 16 bytes of zero */
+    ENF_MAP_AT_MAGIC = 0,        /* 8 bytes */
+    ENF_MAP_AT_VERSION = 8,      /* u32 */
+    ENF_MAP_AT_ENDIAN = 12,      /* u32 */
+    ENF_MAP_AT_FILE_SIZE = 16,   /* u64 */
+    ENF_MAP_AT_SOURCE_HASH = 24, /* u64 */
+    ENF_MAP_AT_HASH = 32,        /* u64 */
+    ENF_MAP_AT_CHUNK_COUNT = 40, /* u32 */
+    ENF_MAP_AT_CRC_HEADER = 44,  /* u32 */
+    ENF_MAP_AT_RESERVED = 48,    /* 16 bytes of zero */
     ENF_MAP_HEADER_SIZE = 64,
-    ENF_MAP_ENTRY_SIZE = 24,      /* fourcc u32, record size u32, offset u64, count u32, CRC-32C u32 */
+    ENF_MAP_ENTRY_SIZE = 24, /* fourcc u32, record size u32, offset u64, count u32, CRC-32C u32 */
     ENF_MAP_FRONT_SIZE = ENF_MAP_HEADER_SIZE + ENF_MAP_ENTRY_SIZE * ENF_MAP_CHUNK_COUNT,
     ENF_MAP_ALIGN = 16
 };
@@ -69,10 +69,11 @@ typedef struct EnfMapCheck {
 #if defined(__GNUC__)
 __attribute__((format(printf, 6, 7)))
 #endif
-EnfResult enf_map_bad(const EnfMapCheck *check, EnfMapChunkId chunk, const void *at, const char *field, EnfResult code,
-                      const char *format, ...);
+EnfResult
+enf_map_bad(const EnfMapCheck *check, EnfMapChunkId chunk, const void *at, const char *field, EnfResult code,
+            const char *format, ...);
 /** The same for a member of a record: ENF_MAP_BAD(check, cells, i, origin, code, format, …). */
-#define ENF_MAP_BAD(check, array, record, field, ...)                                                                  \
+#define ENF_MAP_BAD(check, array, record, field, ...)                                                                          \
     enf_map_bad((check), ENF_CHUNK_##array, &(check)->map->array[record].field, #field, __VA_ARGS__)
 
 /* The stages of enf_map_check; each relies on those before it. */

@@ -18,8 +18,7 @@ static EnfResult read_header(EnfMap *map, EnfCursor *cursor, EnfError *error) {
         return enf_error_set(error, ENF_ERROR_MAGIC, ENF_MAP_AT_MAGIC, "header: not an Enfilade map");
     }
     if (cursor->size < ENF_MAP_FRONT_SIZE) {
-        return enf_error_set(error, ENF_ERROR_TRUNCATED, cursor->size, "header: %zu bytes are too few for a map",
-                             cursor->size);
+        return enf_error_set(error, ENF_ERROR_TRUNCATED, cursor->size, "header: %zu bytes are too few for a map", cursor->size);
     }
     if (version != ENF_MAP_VERSION) {
         return enf_error_set(error, ENF_ERROR_VERSION, ENF_MAP_AT_VERSION,
@@ -27,8 +26,7 @@ static EnfResult read_header(EnfMap *map, EnfCursor *cursor, EnfError *error) {
                              ENF_MAP_VERSION);
     }
     if (endian != ENF_MAP_ENDIAN) {
-        return enf_error_set(error, ENF_ERROR_FORMAT, ENF_MAP_AT_ENDIAN, "header.endian: 0x%08x, not little-endian",
-                             endian);
+        return enf_error_set(error, ENF_ERROR_FORMAT, ENF_MAP_AT_ENDIAN, "header.endian: 0x%08x, not little-endian", endian);
     }
     if (chunk_count != ENF_MAP_CHUNK_COUNT) {
         return enf_error_set(error, ENF_ERROR_FORMAT, ENF_MAP_AT_CHUNK_COUNT, "header.chunk_count: %u instead of %d",
@@ -48,8 +46,7 @@ static EnfResult check_front(const uint8_t *data, EnfError *error) {
     EnfCursor stored = enf_cursor(data + ENF_MAP_AT_CRC_HEADER, 4);
     memset(front + ENF_MAP_AT_CRC_HEADER, 0, 4);
     if (enf_crc32c(0, front, sizeof front) != enf_cursor_u32(&stored)) {
-        return enf_error_set(error, ENF_ERROR_CHECKSUM, ENF_MAP_AT_CRC_HEADER,
-                             "header.crc: header or chunk table is damaged");
+        return enf_error_set(error, ENF_ERROR_CHECKSUM, ENF_MAP_AT_CRC_HEADER, "header.crc: header or chunk table is damaged");
     }
     if (memcmp(front + ENF_MAP_AT_RESERVED, zeros, sizeof zeros) != 0) {
         return enf_error_set(error, ENF_ERROR_FORMAT, ENF_MAP_AT_RESERVED, "header.reserved: not zero");
@@ -91,8 +88,7 @@ static EnfResult read_chunk(EnfMap *map, EnfMapChunkId id, EnfCursor *table, uin
         }
     }
     if (enf_crc32c(0, table->data + start, (size_t)size) != crc) {
-        return enf_error_set(error, ENF_ERROR_CHECKSUM, start, "chunk %s: its bytes differ from their checksum",
-                             info->fourcc);
+        return enf_error_set(error, ENF_ERROR_CHECKSUM, start, "chunk %s: its bytes differ from their checksum", info->fourcc);
     }
     enf_map_chunk_set(map, id, table->data + start, count);
     *end = start + size;

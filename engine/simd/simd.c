@@ -75,9 +75,7 @@ const EnfSimd *enf_simd(void) {
 }
 
 bool enf_simd_force(EnfSimdKind kind) {
-    const EnfSimd *simd = kind == ENF_SIMD_AVX2   ? enf_simd_avx2()
-                          : kind == ENF_SIMD_SSE2 ? enf_simd_sse2()
-                                                  : enf_simd_scalar();
+    const EnfSimd *simd = kind == ENF_SIMD_AVX2 ? enf_simd_avx2() : kind == ENF_SIMD_SSE2 ? enf_simd_sse2() : enf_simd_scalar();
     if (simd) {
         atomic_store_explicit(&chosen, simd, memory_order_relaxed);
     }

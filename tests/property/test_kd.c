@@ -50,8 +50,7 @@ static EnfBox3f random_box(EnfTestRng *rng, Shape shape, uint32_t i) {
         return (EnfBox3f){{-half, -half, -half}, {half, half, half}};
     }
     default:
-        return box_around(p, enf_test_float(rng, 0.0f, 3.0f), enf_test_float(rng, 0.0f, 3.0f),
-                          enf_test_float(rng, 0.0f, 3.0f));
+        return box_around(p, enf_test_float(rng, 0.0f, 3.0f), enf_test_float(rng, 0.0f, 3.0f), enf_test_float(rng, 0.0f, 3.0f));
     }
 }
 
@@ -459,12 +458,10 @@ static void test_check_depth(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_queries),           cmocka_unit_test(test_nan_keeps),
-    cmocka_unit_test(test_capacity),          cmocka_unit_test(test_ray_order),
-    cmocka_unit_test(test_build_deterministic), cmocka_unit_test(test_build_item_numbers),
-    cmocka_unit_test(test_build_refuses),     cmocka_unit_test(test_build_time),
-    cmocka_unit_test(test_query_time),        cmocka_unit_test(test_check_corrupt),
-    cmocka_unit_test(test_check_depth),
+    cmocka_unit_test(test_queries),       cmocka_unit_test(test_nan_keeps),           cmocka_unit_test(test_capacity),
+    cmocka_unit_test(test_ray_order),     cmocka_unit_test(test_build_deterministic), cmocka_unit_test(test_build_item_numbers),
+    cmocka_unit_test(test_build_refuses), cmocka_unit_test(test_build_time),          cmocka_unit_test(test_query_time),
+    cmocka_unit_test(test_check_corrupt), cmocka_unit_test(test_check_depth),
 };
 
 ENF_TEST_MAIN(tests)

@@ -219,7 +219,7 @@ static void test_teleport(void **state) {
     enf_maker_cell(m, "side", enf_v3(0, 0, 0), &side);
     enf_maker_box(m, hall, 0, (EnfBox3){{0, 0, 0}, {4, 3, 4}}, true);
     enf_maker_box(m, side, 0, (EnfBox3){{100, 0, 0}, {104, 3, 4}}, true);
-    const EnfVec3 east[4] = {{4, 0, 1}, {4, 2, 1}, {4, 2, 3}, {4, 0, 3}}; /* front +x, out of the hall */
+    const EnfVec3 east[4] = {{4, 0, 1}, {4, 2, 1}, {4, 2, 3}, {4, 0, 3}};         /* front +x, out of the hall */
     const EnfVec3 west[4] = {{100, 0, 3}, {100, 2, 3}, {100, 2, 1}, {100, 0, 1}}; /* front -x, out of the side room */
     const EnfVec3 end[4] = {{104, 0, 1}, {104, 2, 1}, {104, 2, 3}, {104, 0, 3}};
     EnfAffine there = enf_affine_identity(), back = there, ring = there, mirror = there;
@@ -247,7 +247,7 @@ static void test_teleport(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_one_door),  cmocka_unit_test(test_many_doors),    cmocka_unit_test(test_walk),
+    cmocka_unit_test(test_one_door),   cmocka_unit_test(test_many_doors),    cmocka_unit_test(test_walk),
     cmocka_unit_test(test_to_and_fro), cmocka_unit_test(test_outside_stays), cmocka_unit_test(test_teleport),
 };
 

@@ -17,7 +17,7 @@ typedef struct List {
 } List;
 
 typedef struct Polygon {
-    uint32_t cell, material, group, order;
+    uint32_t cell, material, group, order, node;
     uint32_t first, count; /* in points */
 } Polygon;
 
@@ -38,7 +38,7 @@ struct EnfMaker {
     List polygons, points, halves, portal_points, reaches, cluster_groups;
     uint32_t *half_index;  /* number → map index */
     uint32_t *group_first; /* group → its first cluster */
-    uint32_t group, pairs;
+    uint32_t group, node;
     bool failed;
     EnfMap map;
 };
@@ -208,8 +208,13 @@ uint32_t enf_maker_group(EnfMaker *m) {
     return ++m->group;
 }
 
+void enf_maker_node(EnfMaker *m, const char *name) {
+    enf_maker_group(m);
+    m->node = enf_maker_string(m, name);
+}
+
 void enf_maker_polygon(EnfMaker *m, uint32_t cell, uint32_t material, const EnfVec3 *points, uint32_t count) {
-    Polygon polygon = {cell, material, m->group, m->polygons.count, m->points.count, count};
+    Polygon polygon = {cell, material, m->group, m->polygons.count, m->node, m->points.count, count};
     ADD(m, points, points, count);
     ADD(m, polygons, &polygon, 1);
 }
@@ -387,7 +392,7 @@ static void finish_clusters(EnfMaker *m) {
                                 0,
                                 m->vertices.count,
                                 0,
-                                0,
+                                p->node,
                                 0};
             EnfCell *cell = cell_at(m, p->cell);
             cell->cluster_first = cell->cluster_count++ ? cell->cluster_first : m->clusters.count;

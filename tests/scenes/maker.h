@@ -18,6 +18,8 @@ EnfMaterial *enf_maker_material(EnfMaker *maker, const char *name, float r, floa
 EnfCell *enf_maker_cell(EnfMaker *maker, const char *name, EnfVec3 origin_ws, uint32_t *cell);
 /** A new group: polygons of one group, cell and material make one cluster (or several of 128 triangles). */
 uint32_t enf_maker_group(EnfMaker *maker);
+/** A new group of a node of this name. */
+void enf_maker_node(EnfMaker *maker, const char *name);
 /** A convex polygon, front by the right-hand rule, as a fan. */
 void enf_maker_polygon(EnfMaker *maker, uint32_t cell, uint32_t material, const EnfVec3 *points, uint32_t count);
 /** The six sides of a box; `inward`: a room, else a thing in it. */

@@ -110,7 +110,7 @@ static void add_threshold(EnfMaker *m, const Wall *w, double door, const EnfRoom
     EnfVec3 normal = enf_cross(w->along, w->up);
     EnfVec3 a = enf_add(wall_point(w, door + 0.0625, 0), enf_scale(normal, -depth));
     EnfVec3 b = enf_add(wall_point(w, door + d->door_width - 0.0625, height), enf_scale(normal, depth));
-    enf_maker_group(m);
+    enf_maker_node(m, "threshold");
     enf_maker_box(m, cells[0], WOOD, enf_box3_add(enf_box3_add(enf_box3_empty(), a), b), false);
     enf_maker_reach(m, cells[1]);
 }
@@ -133,7 +133,7 @@ static void add_wall_pair(EnfRooms *rooms, uint32_t cell, int axis, bool inner, 
         enf_maker_portal(rooms->maker, "door-portal", cells[0], cells[1], points, 4, 0);
         if (d->thresholds) {
             add_threshold(rooms->maker, &wall, door, d, cells);
-            enf_maker_group(rooms->maker);
+            enf_maker_node(rooms->maker, "walls");
         }
     }
 }
@@ -167,7 +167,9 @@ static void add_furniture(EnfRooms *rooms, uint32_t cell, uint64_t *random) {
         double z = round_grid(box.min.z + 0.5 + pz * (i / side) + 0.1 * pz);
         double h = random_between(random, 0.1 * d->room.y, 0.5 * d->room.y);
         EnfBox3 thing = {{x, box.min.y + 0.125, z}, {x + w, box.min.y + 0.125 + h, z + l}};
-        enf_maker_group(rooms->maker);
+        char name[32];
+        snprintf(name, sizeof name, "box_%u", i);
+        enf_maker_node(rooms->maker, name);
         enf_maker_box(rooms->maker, cell, WOOD, thing, false);
     }
 }
@@ -175,7 +177,7 @@ static void add_furniture(EnfRooms *rooms, uint32_t cell, uint64_t *random) {
 static void add_room(EnfRooms *rooms, uint32_t cell, uint64_t *random) {
     EnfMaker *m = rooms->maker;
     EnfBox3 box = enf_rooms_box(rooms, cell);
-    enf_maker_group(m);
+    enf_maker_node(m, "flats");
     add_flat(m, cell, FLOOR, box, true);
     add_flat(m, cell, CEILING, box, false);
     add_furniture(rooms, cell, random);
@@ -240,10 +242,12 @@ bool enf_rooms_create(EnfRooms *rooms, const EnfRoomsDef *def, EnfError *error) 
     enf_maker_material(rooms->maker, "wood", 0.5f, 0.3f, 0.15f);
     enf_maker_string(rooms->maker, "door-portal"); /* looked up for each door: early in the table */
     enf_maker_string(rooms->maker, "lamp");
+    enf_maker_string(rooms->maker, "walls");
+    enf_maker_string(rooms->maker, "flats");
     add_cells(rooms);
     /* Lights of a cell are contiguous, so rooms come one by one. */
     for (uint32_t cell = 0; cell < d->nx * d->nz; cell++) {
-        enf_maker_group(rooms->maker);
+        enf_maker_node(rooms->maker, "walls");
         add_near_walls(rooms, cell, cell % d->nx == 0, cell / d->nx == 0);
         add_wall_pair(rooms, cell, 0, cell % d->nx + 1 < d->nx, &random);
         add_wall_pair(rooms, cell, 1, cell / d->nx + 1 < d->nz, &random);

@@ -17,8 +17,16 @@ static void put_tables(EnfMaker *m, uint32_t cell) {
     material->texture = material->emissive_texture = texture;
     material->alpha_mode = ENF_ALPHA_MASK;
     EnfMapCamera camera = {1.0f, 1.5f, 0.1f, 100.0f};
-    EnfEntity root = {{1, 1, 1}, {0, 0, 0, 1}, {1, 1, 1}, enf_maker_string(m, "lift"), enf_maker_string(m, "func_lift"),
-                      enf_maker_string(m, "{\"speed\":2}"), ENF_NONE, cell, enf_maker_camera(m, &camera), 0};
+    EnfEntity root = {{1, 1, 1},
+                      {0, 0, 0, 1},
+                      {1, 1, 1},
+                      enf_maker_string(m, "lift"),
+                      enf_maker_string(m, "func_lift"),
+                      enf_maker_string(m, "{\"speed\":2}"),
+                      ENF_NONE,
+                      cell,
+                      enf_maker_camera(m, &camera),
+                      0};
     EnfEntity child = root;
     child.parent = enf_maker_entity(m, &root);
     enf_maker_entity(m, &child);
@@ -335,7 +343,7 @@ static Draft draft_of(const uint8_t *file, size_t size) {
     if (enf_map_view(&draft.map, draft.bytes, size, &error)) {
         fail_msg("%s", error.message);
     }
-#define DRAFT_POINT(type, array, fourcc)                                                                               \
+#define DRAFT_POINT(type, array, fourcc)                                                                                       \
     draft.array = (type *)(void *)(draft.bytes + ((const uint8_t *)draft.map.array - draft.bytes));
     ENF_MAP_CHUNKS(DRAFT_POINT)
 #undef DRAFT_POINT
@@ -508,11 +516,11 @@ static void test_corruptions(void **state) {
     (void)state;
     size_t size;
     uint8_t *file = everything_file(&size);
-#define CORRUPT(field, code, statement)                                                                                \
-    {                                                                                                                  \
-        Draft d = draft_of(file, size);                                                                                \
-        d.statement;                                                                                                   \
-        expect_refused(&d, field, ENF_ERROR_##code);                                                                   \
+#define CORRUPT(field, code, statement)                                                                                        \
+    {                                                                                                                          \
+        Draft d = draft_of(file, size);                                                                                        \
+        d.statement;                                                                                                           \
+        expect_refused(&d, field, ENF_ERROR_##code);                                                                           \
     }
     CORRUPTIONS(CORRUPT)
 #undef CORRUPT
@@ -568,12 +576,10 @@ static void test_empty(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_layout),
-    cmocka_unit_test(test_read_errors),     cmocka_unit_test(test_truncation),
-    cmocka_unit_test(test_bit_flips),       cmocka_unit_test(test_resealed_damage),
-    cmocka_unit_test(test_resealed_truncation), cmocka_unit_test(test_corruptions),
-    cmocka_unit_test(test_error_offset),    cmocka_unit_test(test_find_cell),
-    cmocka_unit_test(test_empty),
+    cmocka_unit_test(test_round_trip),          cmocka_unit_test(test_layout),      cmocka_unit_test(test_read_errors),
+    cmocka_unit_test(test_truncation),          cmocka_unit_test(test_bit_flips),   cmocka_unit_test(test_resealed_damage),
+    cmocka_unit_test(test_resealed_truncation), cmocka_unit_test(test_corruptions), cmocka_unit_test(test_error_offset),
+    cmocka_unit_test(test_find_cell),           cmocka_unit_test(test_empty),
 };
 
 ENF_TEST_MAIN(tests)
