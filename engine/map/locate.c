@@ -16,7 +16,7 @@ static const EnfVec3 probes[] = {{0.57735, 0.71934, 0.38621},
                                  {0.27413, -0.63177, 0.72514},
                                  {-0.41273, -0.54318, -0.73131},
                                  {0.68713, 0.19136, -0.70092}};
-enum { PROBE_COUNT = sizeof probes / sizeof *probes, PROBES_INSIDE = PROBE_COUNT / 2 + 1, CANDIDATES_MAX = 64 };
+enum { PROBE_COUNT = sizeof probes / sizeof *probes, PROBES_INSIDE = PROBE_COUNT / 2 + 1, CANDIDATES_MAX = 64, THINGS_MAX = 4 };
 
 /* ---- one cell --------------------------------------------------------------------------------------------------- */
 
@@ -33,7 +33,7 @@ static double cell_volume(const EnfCell *cell) {
 typedef struct Shell {
     uint32_t cell;
     bool double_sided;
-    uint32_t without; /* a node's name: what the point is inside of, or ENF_NONE */
+    uint32_t without[THINGS_MAX], without_count; /* names of nodes: the things that the point is inside of */
 } Shell;
 
 static double cluster_area(const EnfMap *map, const EnfCluster *cluster) {
@@ -55,7 +55,7 @@ static Shell shell_of(const EnfMap *map, uint32_t cell) {
             *(material->flags & ENF_MATERIAL_DOUBLE_SIDED ? &both : &single) += cluster_area(map, &map->clusters[i]);
         }
     }
-    return (Shell){cell, both > single, ENF_NONE};
+    return (Shell){cell, both > single, {0}, 0};
 }
 
 /* Is the node a thing in the cell, rather than what the cell is made of? Its box is less than half of the cell's. */
@@ -78,9 +78,13 @@ static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
     const Shell *shell = user;
     const EnfCluster *cluster = &map->clusters[index];
     const EnfMaterial *material = &map->materials[cluster->material];
+    for (uint32_t i = 0; i < shell->without_count; i++) {
+        if (cluster->node == shell->without[i]) {
+            return false;
+        }
+    }
     return cluster->cell == shell->cell && material->alpha_mode == ENF_ALPHA_OPAQUE &&
-           (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED)) &&
-           (shell->without == ENF_NONE || cluster->node != shell->without);
+           (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED));
 }
 
 /* The nearest opening of the cell before *t: from within, a ray leaves by it along its normal. A point on an opening is in both
@@ -122,7 +126,8 @@ static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 directi
     return inside;
 }
 
-/* The majority of the probes. `*enclosing`: the node whose back all of them met but at most one, or ENF_NONE. */
+/* The majority of the probes. `*enclosing`: the node whose back most of them met, or ENF_NONE (a thing that stands on the floor hides
+ * its underside, so not all need to). */
 static bool vote(const EnfMap *map, Shell *shell, EnfVec3 p_ws, uint32_t *enclosing) {
     uint32_t behind[PROBE_COUNT];
     int votes = 0;
@@ -130,12 +135,12 @@ static bool vote(const EnfMap *map, Shell *shell, EnfVec3 p_ws, uint32_t *enclos
         votes += probe(map, shell, p_ws, probes[i], &behind[i]);
     }
     *enclosing = ENF_NONE;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < PROBE_COUNT; i++) {
         int same = 0;
         for (int k = 0; k < PROBE_COUNT; k++) {
             same += behind[k] == behind[i];
         }
-        *enclosing = same >= PROBE_COUNT - 1 ? behind[i] : *enclosing;
+        *enclosing = same >= PROBES_INSIDE ? behind[i] : *enclosing;
     }
     return votes >= PROBES_INSIDE;
 }
@@ -169,12 +174,16 @@ bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
         return false;
     }
     Shell shell = shell_of(map, cell);
-    bool inside = vote(map, &shell, p_ws, &shell.without);
-    if (!inside && shell.without != ENF_NONE && is_thing(map, cell, shell.without)) {
+    for (;;) {
         uint32_t enclosing;
-        inside = vote(map, &shell, p_ws, &enclosing);
+        if (vote(map, &shell, p_ws, &enclosing)) {
+            return true;
+        }
+        if (enclosing == ENF_NONE || shell.without_count == THINGS_MAX || !is_thing(map, cell, enclosing)) {
+            return false;
+        }
+        shell.without[shell.without_count++] = enclosing;
     }
-    return inside;
 }
 
 /* ---- all cells -------------------------------------------------------------------------------------------------- */
