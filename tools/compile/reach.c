@@ -15,8 +15,8 @@
 /* Metres in front of a surface at which one looks where it is: far above SURFACE, far below any room. */
 static const double IN_FRONT = 1.0 / 64.0;
 /* Large triangles are looked at piece by piece: pieces of this size (metres), halved at most so often. */
-static const double PIECE = 0.75;
-enum { HALVINGS = 6, POINTS_MAX = 512 };
+static const double PIECE = 1.25;
+enum { HALVINGS = 6, POINTS_MAX = 512, CANDIDATES = 32 };
 
 typedef struct Gate {
     EnfVec3 normal;
@@ -39,6 +39,7 @@ typedef struct Query {
     const uint32_t *triangles;
     uint32_t count;
     EnfBox3 box;
+    uint32_t listed; /* how many of reach->cells */
 } Query;
 
 EnfReach *enf_reach_create(const EnfLayout *layout, const struct EnfSoup *soup) {
@@ -192,92 +193,14 @@ static bool passes(const Query *query, uint32_t p) {
 
 /* ---- through walls --------------------------------------------------------------------------------------------------------- */
 
-typedef struct Surface {
+/* One triangle on its way through the candidates. */
+typedef struct Sheet {
+    Query *query;
+    uint32_t home;
     EnfVec3 normal;
-    bool both; /* seen from behind too, or by nobody knows whom */
-} Surface;
-
-/* Does one who stands just in front of p see it from inside the cell? The triangle itself hides what is behind it, so only rays away
- * from it vote. */
-static bool seen_from(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 normal) {
-    EnfVec3 eye = enf_add(p, enf_scale(normal, IN_FRONT));
-    return enf_shell_near(&shells->cells[cell], &eye, 1, SURFACE) && enf_shell_open_to(shells, cell, eye, normal);
-}
-
-/* Looks at a triangle piece by piece, leaving out pieces that are not near the cell. */
-static bool piece_in_cell(EnfShells *shells, uint32_t cell, const EnfVec3 p[3], const Surface *surface, int halvings) {
-    EnfVec3 around[6];
-    for (int k = 0; k < 3; k++) {
-        around[2 * k] = enf_add(p[k], enf_scale(surface->normal, IN_FRONT));
-        around[2 * k + 1] = surface->both ? enf_sub(p[k], enf_scale(surface->normal, IN_FRONT)) : p[k];
-    }
-    if (!enf_shell_near(&shells->cells[cell], around, 6, SURFACE)) {
-        return false;
-    }
-    EnfVec3 ab = enf_scale(enf_add(p[0], p[1]), 0.5), bc = enf_scale(enf_add(p[1], p[2]), 0.5);
-    EnfVec3 ca = enf_scale(enf_add(p[2], p[0]), 0.5);
-    double size = enf_length(enf_sub(p[1], p[0])) + enf_length(enf_sub(p[2], p[1])) + enf_length(enf_sub(p[0], p[2]));
-    if (size > 3.0 * PIECE && halvings > 0) {
-        const EnfVec3 parts[4][3] = {{p[0], ab, ca}, {ab, p[1], bc}, {ca, bc, p[2]}, {ab, bc, ca}};
-        for (int i = 0; i < 4; i++) {
-            if (piece_in_cell(shells, cell, parts[i], surface, halvings - 1)) {
-                return true;
-            }
-        }
-        return false;
-    }
-    EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
-    return seen_from(shells, cell, centre, surface->normal) ||
-           (surface->both && seen_from(shells, cell, centre, enf_scale(surface->normal, -1.0)));
-}
-
-static bool triangle_in_cell(const Query *query, uint32_t cell, uint32_t triangle) {
-    EnfSpace *space = &query->reach->space;
-    EnfVec3 p[3];
-    enf_soup_corners(space->soup, triangle, p);
-    const EnfSoupTriangle *record = &space->soup->triangles[triangle];
-    Surface surface = {enf_normalize(enf_cross(enf_sub(p[1], p[0]), enf_sub(p[2], p[0]))), false};
-    surface.both = (space->faces[record->material] & ENF_FACE_TWO_SIDED) || space->layout->node_cells[record->node] == ENF_NONE;
-    EnfVec3 all[6];
-    for (int k = 0; k < 3; k++) {
-        all[k] = p[k];
-        all[3 + k] = enf_add(p[k], enf_scale(surface.normal, surface.both ? -IN_FRONT : IN_FRONT));
-    }
-    if (!enf_shell_near(&space->shells.cells[cell], all, 6, SURFACE)) {
-        return false;
-    }
-    for (int k = 0; k < 3; k++) {
-        if (enf_shell_inside(&space->shells, cell, p[k], SURFACE, false)) {
-            return true;
-        }
-    }
-    return piece_in_cell(&space->shells, cell, p, &surface, HALVINGS);
-}
-
-/* The cheap test for the whole set first: most sets end at the walls that they share with the cell. */
-static bool set_in_cell(const Query *query, uint32_t cell) {
-    EnfSpace *space = &query->reach->space;
-    EnfVec3 points[POINTS_MAX];
-    uint32_t used = 0;
-    bool near = false;
-    for (uint32_t i = 0; i < query->count && !near; i++) {
-        enf_soup_corners(space->soup, query->triangles[i], &points[used]);
-        used += 3;
-        if (used + 3 > POINTS_MAX || i + 1 == query->count) {
-            /* Less than the distance at which surfaces are looked at: a wall shared by two rooms is near both. */
-            near = enf_shell_near(&space->shells.cells[cell], points, used, -IN_FRONT);
-            used = 0;
-        }
-    }
-    for (uint32_t i = 0; near && i < query->count; i++) {
-        if (triangle_in_cell(query, cell, query->triangles[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* ---- queries --------------------------------------------------------------------------------------------------------------- */
+    bool both;  /* seen from behind too, or by nobody knows whom */
+    bool loose; /* belongs to no room by its author's word, so its home has no claim on it */
+} Sheet;
 
 static bool list(EnfReach *reach, uint32_t cell, uint32_t *count) {
     if (cell >= reach->space.cell_count || reach->stamp[cell] == reach->query) {
@@ -288,6 +211,166 @@ static bool list(EnfReach *reach, uint32_t cell, uint32_t *count) {
     return true;
 }
 
+static bool is_listed(const EnfReach *reach, uint32_t cell) {
+    return reach->stamp[cell] == reach->query;
+}
+
+/* Does one who stands just in front of p see it from inside the cell? The triangle itself hides what is behind it, so only rays away
+ * from it vote. */
+static bool seen_from(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 normal) {
+    EnfVec3 eye = enf_add(p, enf_scale(normal, IN_FRONT));
+    return enf_shell_near(&shells->cells[cell], &eye, 1, SURFACE) && enf_shell_open_to(shells, cell, eye, normal);
+}
+
+/* Looks at one side of a small piece. Whoever stands there in its own room is in no other: where rooms overlap, a link shows the one
+ * with the other anyway. */
+static void look(const Sheet *sheet, EnfVec3 centre, EnfVec3 normal, const uint32_t *cells, uint32_t count) {
+    EnfReach *reach = sheet->query->reach;
+    EnfShells *shells = &reach->space.shells;
+    if (!sheet->loose && sheet->home < reach->space.cell_count && seen_from(shells, sheet->home, centre, normal)) {
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!is_listed(reach, cells[i]) && seen_from(shells, cells[i], centre, normal)) {
+            list(reach, cells[i], &sheet->query->listed);
+        }
+    }
+}
+
+/* Which of the cells come near a triangle, or near its front? */
+static uint32_t keep_near(const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, uint32_t *out) {
+    const EnfReach *reach = sheet->query->reach;
+    EnfVec3 around[6];
+    uint32_t kept = 0;
+    for (int k = 0; k < 3; k++) {
+        EnfVec3 step = enf_scale(sheet->normal, IN_FRONT);
+        around[2 * k] = enf_add(p[k], step);
+        around[2 * k + 1] = sheet->both ? enf_sub(p[k], step) : p[k];
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!is_listed(reach, cells[i]) && enf_shell_near(&reach->space.shells.cells[cells[i]], around, 6, SURFACE)) {
+            out[kept++] = cells[i];
+        }
+    }
+    return kept;
+}
+
+/* A cell without a surface near a piece holds the whole of it or nothing: one look settles that. Keeps the other cells. */
+static uint32_t settle_uniform(const Sheet *sheet, const EnfVec3 p[3], uint32_t *cells, uint32_t count) {
+    EnfReach *reach = sheet->query->reach;
+    EnfShells *shells = &reach->space.shells;
+    EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
+    EnfBox3 box = grown(enf_box3_add(enf_box3_add(enf_box3_add(enf_box3_empty(), p[0]), p[1]), p[2]), 2.0 * IN_FRONT);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (enf_shell_touches(shells, cells[i], box)) {
+            cells[kept++] = cells[i];
+        } else if (seen_from(shells, cells[i], centre, sheet->normal) ||
+                   (sheet->both && seen_from(shells, cells[i], centre, enf_scale(sheet->normal, -1.0)))) {
+            list(reach, cells[i], &sheet->query->listed);
+        }
+    }
+    return kept;
+}
+
+/* Looks at a triangle piece by piece. */
+static void look_at_pieces(const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, int halvings) {
+    uint32_t near[CANDIDATES];
+    uint32_t near_count = keep_near(sheet, p, cells, count, near);
+    near_count = settle_uniform(sheet, p, near, near_count);
+    if (near_count == 0) {
+        return;
+    }
+    EnfVec3 ab = enf_scale(enf_add(p[0], p[1]), 0.5), bc = enf_scale(enf_add(p[1], p[2]), 0.5);
+    EnfVec3 ca = enf_scale(enf_add(p[2], p[0]), 0.5);
+    double size = enf_length(enf_sub(p[1], p[0])) + enf_length(enf_sub(p[2], p[1])) + enf_length(enf_sub(p[0], p[2]));
+    if (size > 3.0 * PIECE && halvings > 0) {
+        const EnfVec3 parts[4][3] = {{p[0], ab, ca}, {ab, p[1], bc}, {ca, bc, p[2]}, {ab, bc, ca}};
+        for (int i = 0; i < 4; i++) {
+            look_at_pieces(sheet, parts[i], near, near_count, halvings - 1);
+        }
+        return;
+    }
+    EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
+    look(sheet, centre, sheet->normal, near, near_count);
+    if (sheet->both) {
+        look(sheet, centre, enf_scale(sheet->normal, -1.0), near, near_count);
+    }
+}
+
+/* Lists the cells, of at most CANDIDATES, that a triangle reaches into. */
+static void look_at_triangle(Query *query, uint32_t triangle, const uint32_t *cells, uint32_t count) {
+    EnfSpace *space = &query->reach->space;
+    const EnfSoupTriangle *record = &space->soup->triangles[triangle];
+    EnfVec3 p[3];
+    uint32_t near[CANDIDATES];
+    enf_soup_corners(space->soup, triangle, p);
+    Sheet sheet = {.query = query, .home = record->cell};
+    sheet.normal = enf_normalize(enf_cross(enf_sub(p[1], p[0]), enf_sub(p[2], p[0])));
+    sheet.loose = space->layout->node_cells[record->node] == ENF_NONE;
+    sheet.both = sheet.loose || (space->faces[record->material] & ENF_FACE_TWO_SIDED);
+    uint32_t near_count = keep_near(&sheet, p, cells, count, near);
+    for (uint32_t i = 0; i < near_count; i++) {
+        for (int k = 0; k < 3 && !is_listed(query->reach, near[i]); k++) {
+            if (enf_shell_inside(&space->shells, near[i], p[k], SURFACE, false)) {
+                list(query->reach, near[i], &query->listed);
+            }
+        }
+    }
+    look_at_pieces(&sheet, p, near, near_count, HALVINGS);
+}
+
+/* The cheap test for the whole set: most sets end at the walls that they share with the cell. */
+static bool is_set_near(const Query *query, uint32_t cell) {
+    EnfSpace *space = &query->reach->space;
+    EnfVec3 points[POINTS_MAX];
+    uint32_t used = 0;
+    for (uint32_t i = 0; i < query->count; i++) {
+        enf_soup_corners(space->soup, query->triangles[i], &points[used]);
+        used += 3;
+        if (used + 3 > POINTS_MAX || i + 1 == query->count) {
+            /* Less than the distance at which surfaces are looked at: a wall shared by two rooms is near both. */
+            if (enf_shell_near(&space->shells.cells[cell], points, used, -IN_FRONT)) {
+                return true;
+            }
+            used = 0;
+        }
+    }
+    return false;
+}
+
+static void reach_through_walls(Query *query) {
+    EnfReach *reach = query->reach;
+    EnfKdTree tree = enf_kd_tree(&reach->space.tree);
+    uint32_t found = enf_kd_overlap(&tree, enf_box3f_outward(query->box), reach->near, reach->space.cell_count), count = 0;
+    for (uint32_t i = 0; i < found; i++) {
+        if (!is_listed(reach, reach->near[i]) && is_set_near(query, reach->near[i])) {
+            reach->near[count++] = reach->near[i];
+        }
+    }
+    for (uint32_t first = 0; first < count; first += CANDIDATES) {
+        uint32_t some = count - first < CANDIDATES ? count - first : CANDIDATES;
+        for (uint32_t i = 0; i < query->count; i++) {
+            look_at_triangle(query, query->triangles[i], &reach->near[first], some);
+        }
+    }
+}
+
+static void reach_through_portals(Query *query) {
+    EnfReach *reach = query->reach;
+    for (uint32_t i = 0; i < query->listed; i++) {
+        uint32_t from = reach->cells[i];
+        for (uint32_t p = reach->space.portal_first[from]; p < reach->space.portal_first[from + 1]; p++) {
+            uint32_t target = reach->space.layout->portals[p].target;
+            if (target < reach->space.cell_count && !is_listed(reach, target) && passes(query, p)) {
+                list(reach, target, &query->listed);
+            }
+        }
+    }
+}
+
+/* ---- queries --------------------------------------------------------------------------------------------------------------- */
+
 static int compare_u32(const void *pa, const void *pb) {
     const uint32_t *a = pa, *b = pb;
     return (*a > *b) - (*a < *b);
@@ -296,34 +379,19 @@ static int compare_u32(const void *pa, const void *pb) {
 uint32_t enf_reach_query(const EnfReach *constant, const uint32_t *triangles, uint32_t triangle_count, uint32_t cell,
                          uint32_t *out, uint32_t capacity) {
     EnfReach *reach = (EnfReach *)(uintptr_t)constant; /* its scratch, and trees made when needed: one thread at a time */
-    Query query = {reach, triangles, triangle_count, enf_box3_empty()};
-    uint32_t count = 0;
+    Query query = {reach, triangles, triangle_count, enf_box3_empty(), 0};
     for (uint32_t i = 0; i < triangle_count; i++) {
         EnfVec3 p[3];
         enf_soup_corners(reach->space.soup, triangles[i], p);
         query.box = enf_box3_add(enf_box3_add(enf_box3_add(query.box, p[0]), p[1]), p[2]);
     }
     reach->query++;
-    list(reach, cell, &count);
-    EnfKdTree tree = enf_kd_tree(&reach->space.tree);
-    uint32_t near = enf_kd_overlap(&tree, enf_box3f_outward(query.box), reach->near, reach->space.cell_count);
-    for (uint32_t i = 0; i < near; i++) {
-        if (reach->stamp[reach->near[i]] != reach->query && set_in_cell(&query, reach->near[i])) {
-            list(reach, reach->near[i], &count);
-        }
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t from = reach->cells[i];
-        for (uint32_t p = reach->space.portal_first[from]; p < reach->space.portal_first[from + 1]; p++) {
-            uint32_t target = reach->space.layout->portals[p].target;
-            if (target < reach->space.cell_count && reach->stamp[target] != reach->query && passes(&query, p)) {
-                list(reach, target, &count);
-            }
-        }
-    }
-    uint32_t first = count > 0 && reach->cells[0] == cell ? 1 : 0; /* home is not reached, it is home */
-    qsort(&reach->cells[first], count - first, sizeof *reach->cells, compare_u32);
-    uint32_t given = count - first < capacity ? count - first : capacity;
+    uint32_t first = list(reach, cell, &query.listed) ? 1 : 0; /* home is not reached, it is home */
+    reach_through_walls(&query);
+    reach_through_portals(&query);
+    uint32_t count = query.listed - first;
+    qsort(&reach->cells[first], count, sizeof *reach->cells, compare_u32);
+    uint32_t given = count < capacity ? count : capacity;
     memcpy(out, &reach->cells[first], given * sizeof *out);
     return given;
 }

@@ -207,17 +207,21 @@ static double try_triangle(void *user, uint32_t item, double t_max) {
     return cast->hit && cast->best + SAME_PLACE < t_max ? cast->best + SAME_PLACE : t_max;
 }
 
+static EnfBox3 triangle_box(const EnfShells *shells, uint32_t triangle) {
+    EnfBox3 box = enf_box3_empty();
+    for (int k = 0; k < 3; k++) {
+        box = enf_box3_add(box, corner(shells, triangle, k));
+    }
+    return box;
+}
+
 static void make_tree(EnfShells *shells, EnfShell *shell) {
     EnfBox3f *boxes = enf_alloc(NULL, shell->count, sizeof *boxes);
     if (boxes == NULL) {
         return;
     }
     for (uint32_t i = 0; i < shell->count; i++) {
-        EnfBox3 box = enf_box3_empty();
-        for (int k = 0; k < 3; k++) {
-            box = enf_box3_add(box, corner(shells, shell->first + i, k));
-        }
-        boxes[i] = enf_box3f_outward(box);
+        boxes[i] = enf_box3f_outward(triangle_box(shells, shell->first + i));
     }
     shell->has_tree = enf_kd_build(&shell->tree, boxes, NULL, shell->count, NULL, NULL) == ENF_OK;
     enf_free(NULL, boxes, shell->count, sizeof *boxes);
@@ -243,6 +247,22 @@ uint32_t enf_shell_overlap(EnfShells *shells, uint32_t cell, EnfBox3 box, uint32
         out[i] = i;
     }
     return count;
+}
+
+bool enf_shell_touches(EnfShells *shells, uint32_t cell, EnfBox3 box) {
+    EnfShell *shell = &shells->cells[cell];
+    EnfBox3 local = {enf_sub(box.min, shell->origin), enf_sub(box.max, shell->origin)};
+    if (needs_tree(shells, shell)) {
+        EnfKdTree tree = enf_kd_tree(&shell->tree);
+        uint32_t one;
+        return enf_kd_overlap(&tree, enf_box3f_outward(local), &one, 1) > 0;
+    }
+    for (uint32_t i = 0; i < shell->count; i++) {
+        if (enf_box3_overlaps(triangle_box(shells, shell->first + i), local)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direction, double t_min, double t_max,
@@ -329,19 +349,20 @@ bool enf_shell_inside(EnfShells *shells, uint32_t cell, EnfVec3 p, double depth,
 
 bool enf_shell_open_to(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 normal) {
     const EnfShell *shell = &shells->cells[cell];
-    uint32_t front = 0;
+    uint32_t missed = 0;
     if (shell->bound_count > 0) {
         return in_bound(shell, p, 0.0);
     }
-    for (int i = 0; i < ENF_SHELL_RAYS; i++) {
+    for (int i = 0; i < ENF_SHELL_RAYS && missed < 2; i++) {
         EnfShellHit hit;
-        if (enf_dot(rays[i], normal) <= 0.0 || !enf_shell_ray(shells, cell, p, rays[i], 0.0, DBL_MAX / 4, &hit)) {
+        if (enf_dot(rays[i], normal) <= 0.0) {
             continue;
         }
-        if (!hit.front) {
+        if (!enf_shell_ray(shells, cell, p, rays[i], 0.0, DBL_MAX / 4, &hit)) {
+            missed++;
+        } else if (!hit.front) {
             return false;
         }
-        front++;
     }
-    return front >= 2;
+    return missed < 2;
 }

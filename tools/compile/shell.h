@@ -56,6 +56,9 @@ bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direc
  *  `capacity`. */
 uint32_t enf_shell_overlap(EnfShells *shells, uint32_t cell, EnfBox3 box, uint32_t *out, uint32_t capacity);
 
+/** May a surface of the cell come into `box` (world)? By boxes; never false wrongly. */
+bool enf_shell_touches(EnfShells *shells, uint32_t cell, EnfBox3 box);
+
 /** Could a point of `points` lie deeper than `depth` inside the cell? False is certain; cheap. */
 bool enf_shell_near(const EnfShell *shell, const EnfVec3 *points, uint32_t count, double depth);
 
