@@ -2,8 +2,8 @@
  * two uncovered, because the two borders round differently; splitting the other triangle there makes the borders equal.
  *
  * Edges are matched cell by cell: floors of two rooms may share an edge through a wall of no thickness, and would then hide that
- * each of them lacks the vertices of its own wall. Vertices, however, are looked for in all cells, because walls of two rooms
- * meet along the border of a portal. */
+ * each of them lacks the vertices of its own wall. So a first round mends every cell by itself. What is open after it are the
+ * borders of openings, where surfaces of several cells meet; a second round mends these across cells. */
 #include "compile/weld.h"
 
 #include "compile/array.h"
@@ -32,15 +32,28 @@ typedef struct Piece {
     bool fresh[3];               /* half of an edge that was split */
 } Piece;
 
+/* A position as it may be put into the edges of a cell; in the second round the cell is ENF_NONE, and stands for all. */
+typedef struct Candidate {
+    uint32_t cell, position;
+} Candidate;
+
+/* The candidates of one cell. */
+typedef struct Grove {
+    uint32_t cell;
+    EnfPointTree *tree;
+} Grove;
+
 typedef struct Weld {
     ENF_ARRAY(EnfSoupVertex) vertices;
     ENF_ARRAY(EnfSoupTriangle) triangles;
-    const EnfGrid3 *points;
-    EnfPointTree *tree;
-    EdgeList work, next; /* edges of this pass and of the next, ascending */
-    PositionList hits;   /* positions on the edges of `work`, edge by edge, in the edge's direction */
-    uint32_t *hit_first; /* edge i: hits [hit_first[i], hit_first[i + 1]) */
-    PositionList added;  /* soup vertices made for the triangle at hand */
+    bool across;             /* the second round: vertices of all cells */
+    Candidate *candidates;   /* ascending */
+    EnfGrid3 *points;        /* of the candidates */
+    ENF_ARRAY(Grove) groves; /* ascending by cell */
+    EdgeList work, next;     /* edges of this pass and of the next, ascending */
+    PositionList hits;       /* candidates on the edges of `work`, edge by edge, in the edge's direction */
+    uint32_t *hit_first;     /* edge i: hits [hit_first[i], hit_first[i + 1]) */
+    PositionList added;      /* soup vertices made for the triangle at hand */
     ENF_ARRAY(Piece) pieces;
     EnfGrid3 normal; /* of the triangle at hand, before this pass */
     uint32_t split_count;
@@ -53,6 +66,19 @@ typedef struct Weld {
 
 static EnfGrid3 corner_point(const Weld *weld, EnfEdgeRef edge, uint32_t step) {
     return weld->vertices.data[weld->triangles.data[edge.triangle].v[(edge.corner + step) % 3]].p;
+}
+
+static const EnfPointTree *find_tree(const Weld *weld, uint32_t cell) {
+    uint32_t wanted = weld->across ? ENF_NONE : cell, low = 0, high = weld->groves.count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (weld->groves.data[middle].cell < wanted) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < weld->groves.count && weld->groves.data[low].cell == wanted ? weld->groves.data[low].tree : NULL;
 }
 
 static bool take_hit(void *user, uint32_t id) {
@@ -107,7 +133,10 @@ static bool find_hits(Weld *weld) {
         if (!enf_grid_short(enf_grid_sub(b, a)) || !enf_grid_short(enf_grid_sub(weld->apex, a))) {
             continue;
         }
-        enf_point_tree_segment(weld->tree, a, b, take_hit, weld);
+        const EnfPointTree *tree = find_tree(weld, weld->triangles.data[weld->work.data[i].triangle].cell);
+        if (tree) {
+            enf_point_tree_segment(tree, a, b, take_hit, weld);
+        }
         sort_along(weld->hits.data + first, weld->hits.count - first, weld->points, a, enf_grid_sub(b, a));
     }
     weld->hit_first[weld->work.count] = weld->hits.count;
@@ -291,37 +320,65 @@ static bool pass(Weld *weld) {
     return !weld->failed;
 }
 
-/* The tree over the end points of open edges. */
-static EnfPointTree *open_points(const EnfEdges *edges, const EnfSoup *soup) {
-    uint8_t *used = calloc((size_t)edges->point_count + 1, 1);
-    uint32_t *ids = malloc(((size_t)edges->open_count * 2 + 1) * sizeof *ids);
-    EnfPointTree *tree = NULL;
-    uint32_t count = 0;
-    for (uint32_t i = 0; used && ids && i < edges->open_count; i++) {
-        for (uint32_t end = 0; end < 2; end++) {
-            const EnfSoupTriangle *t = &soup->triangles[edges->open[i].triangle];
-            uint32_t id = edges->position[t->v[(edges->open[i].corner + end) % 3]];
-            if (!used[id]) {
-                used[id] = 1;
-                ids[count++] = id;
-            }
-        }
+static int compare_candidates(const void *left, const void *right) {
+    const Candidate *a = left, *b = right;
+    if (a->cell != b->cell) {
+        return a->cell < b->cell ? -1 : 1;
     }
-    if (used && ids) {
-        tree = enf_point_tree_create(edges->points, ids, count);
-    }
-    free(used);
-    free(ids);
-    return tree;
+    return (a->position > b->position) - (a->position < b->position);
 }
 
-static bool weld_edges(Weld *weld, EnfEdges *edges, const EnfSoup *soup) {
-    weld->points = edges->points;
-    weld->hits_max = hits_max(soup->triangle_count);
-    weld->tree = open_points(edges, soup);
-    if (!weld->tree) {
+/* The end points of open edges, each once (in the first round, once a cell). Returns how many. */
+static uint32_t list_candidates(Weld *weld, const EnfEdges *edges) {
+    uint32_t count = 0, kept = 0;
+    for (uint32_t i = 0; i < edges->open_count; i++) {
+        const EnfSoupTriangle *t = &weld->triangles.data[edges->open[i].triangle];
+        for (uint32_t end = 0; end < 2; end++) {
+            uint32_t position = edges->position[t->v[(edges->open[i].corner + end) % 3]];
+            weld->candidates[count++] = (Candidate){weld->across ? ENF_NONE : t->cell, position};
+        }
+    }
+    qsort(weld->candidates, count, sizeof *weld->candidates, compare_candidates);
+    for (uint32_t i = 0; i < count; i++) {
+        if (i == 0 || compare_candidates(&weld->candidates[i], &weld->candidates[kept - 1]) != 0) {
+            weld->candidates[kept] = weld->candidates[i];
+            weld->points[kept++] = edges->points[weld->candidates[i].position];
+        }
+    }
+    return kept;
+}
+
+/* A tree for each run of candidates of one cell. */
+static bool plant_trees(Weld *weld, uint32_t count, uint32_t *ids) {
+    for (uint32_t first = 0, end; first < count; first = end) {
+        uint32_t cell = weld->candidates[first].cell;
+        for (end = first; end < count && weld->candidates[end].cell == cell; end++) {
+            ids[end - first] = end;
+        }
+        EnfPointTree *tree = ENF_ARRAY_ROOM(&weld->groves, 1) ? enf_point_tree_create(weld->points, ids, end - first) : NULL;
+        if (!tree) {
+            return false;
+        }
+        weld->groves.data[weld->groves.count++] = (Grove){cell, tree};
+    }
+    return true;
+}
+
+static bool plant(Weld *weld, const EnfEdges *edges) {
+    size_t room = (size_t)edges->open_count * 2 + 1;
+    weld->candidates = malloc(room * sizeof *weld->candidates);
+    weld->points = malloc(room * sizeof *weld->points);
+    uint32_t *ids = malloc(room * sizeof *ids);
+    bool ok = weld->candidates && weld->points && ids && plant_trees(weld, list_candidates(weld, edges), ids);
+    free(ids);
+    return ok;
+}
+
+static bool weld_edges(Weld *weld, EnfEdges *edges) {
+    if (!plant(weld, edges)) {
         return false;
     }
+    weld->hits_max = hits_max(weld->triangles.count);
     weld->work.data = edges->open;
     weld->work.count = weld->work.capacity = edges->open_count;
     edges->open = NULL;
@@ -333,7 +390,7 @@ static bool weld_edges(Weld *weld, EnfEdges *edges, const EnfSoup *soup) {
     return true;
 }
 
-EnfResult enf_weld(EnfSoup *soup, EnfError *error) {
+static EnfResult weld_round(EnfSoup *soup, bool across, EnfError *error) {
     EnfEdges edges;
     Weld weld;
     memset(&weld, 0, sizeof weld);
@@ -341,11 +398,12 @@ EnfResult enf_weld(EnfSoup *soup, EnfError *error) {
     if (result != ENF_OK) {
         return result;
     }
+    weld.across = across;
     weld.vertices.data = soup->vertices;
     weld.vertices.count = weld.vertices.capacity = soup->vertex_count;
     weld.triangles.data = soup->triangles;
     weld.triangles.count = weld.triangles.capacity = soup->triangle_count;
-    if (!weld_edges(&weld, &edges, soup)) {
+    if (!weld_edges(&weld, &edges)) {
         result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory while welding %u triangles",
                                soup->triangle_count);
     }
@@ -354,7 +412,12 @@ EnfResult enf_weld(EnfSoup *soup, EnfError *error) {
     soup->triangles = weld.triangles.data;
     soup->triangle_count = weld.triangles.count;
     soup->split_count += weld.split_count;
-    enf_point_tree_destroy(weld.tree);
+    for (uint32_t i = 0; i < weld.groves.count; i++) {
+        enf_point_tree_destroy(weld.groves.data[i].tree);
+    }
+    free(weld.groves.data);
+    free(weld.candidates);
+    free(weld.points);
     free(weld.work.data);
     free(weld.next.data);
     free(weld.hits.data);
@@ -363,4 +426,9 @@ EnfResult enf_weld(EnfSoup *soup, EnfError *error) {
     free(weld.pieces.data);
     enf_edges_free(&edges);
     return result;
+}
+
+EnfResult enf_weld(EnfSoup *soup, EnfError *error) {
+    EnfResult result = weld_round(soup, false, error);
+    return result == ENF_OK ? weld_round(soup, true, error) : result;
 }
