@@ -139,8 +139,7 @@ static EnfResult read_opened(EnfFile *file, int fd, size_t max_size, EnfError *e
     return result;
 }
 
-EnfResult enf_file_read(EnfFile *file, const char *path, size_t max_size, const EnfAllocator *allocator,
-                        EnfError *error) {
+EnfResult enf_file_read(EnfFile *file, const char *path, size_t max_size, const EnfAllocator *allocator, EnfError *error) {
     *file = (EnfFile){NULL, 0, allocator ? allocator : enf_default_allocator()};
     int fd = calls->open(path, O_RDONLY | O_CLOEXEC, 0);
     if (fd < 0) {

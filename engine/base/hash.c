@@ -11,9 +11,8 @@
 /* ---- CRC-32C ---------------------------------------------------------------------------------------------------- */
 
 #define BIT(i, b, c) ((i) >> (b)&1u ? (c) : 0u)
-#define ENTRY(i, a, b, c, d, e, f, g, h)                                                                               \
-    (BIT(i, 0, a) ^ BIT(i, 1, b) ^ BIT(i, 2, c) ^ BIT(i, 3, d) ^ BIT(i, 4, e) ^ BIT(i, 5, f) ^ BIT(i, 6, g) ^          \
-     BIT(i, 7, h))
+#define ENTRY(i, a, b, c, d, e, f, g, h)                                                                                       \
+    (BIT(i, 0, a) ^ BIT(i, 1, b) ^ BIT(i, 2, c) ^ BIT(i, 3, d) ^ BIT(i, 4, e) ^ BIT(i, 5, f) ^ BIT(i, 6, g) ^ BIT(i, 7, h))
 
 /* Row k: the remainder of each bit of a byte that is followed by k bytes of zero; polynomial 0x1EDC6F41, reflected. */
 /* clang-format off */
@@ -30,7 +29,7 @@
 #define FOUR(row, i) row((i)), row((i) + 1u), row((i) + 2u), row((i) + 3u)
 #define SIXTEEN(row, i) FOUR(row, (i)), FOUR(row, (i) + 4u), FOUR(row, (i) + 8u), FOUR(row, (i) + 12u)
 #define SIXTYFOUR(row, i) SIXTEEN(row, (i)), SIXTEEN(row, (i) + 16u), SIXTEEN(row, (i) + 32u), SIXTEEN(row, (i) + 48u)
-#define TABLE(row)                                                                                                     \
+#define TABLE(row)                                                                                                             \
     { SIXTYFOUR(row, 0u), SIXTYFOUR(row, 64u), SIXTYFOUR(row, 128u), SIXTYFOUR(row, 192u) }
 
 static const uint32_t crc_table[8][256] = {TABLE(ROW0), TABLE(ROW1), TABLE(ROW2), TABLE(ROW3),
@@ -47,9 +46,8 @@ static uint64_t load_u64(const uint8_t *p) {
 
 static uint32_t crc_eight_bytes(uint32_t crc, const uint8_t *p) {
     uint32_t low = crc ^ load_u32(p), high = load_u32(p + 4);
-    return crc_table[7][low & 255] ^ crc_table[6][low >> 8 & 255] ^ crc_table[5][low >> 16 & 255] ^
-           crc_table[4][low >> 24] ^ crc_table[3][high & 255] ^ crc_table[2][high >> 8 & 255] ^
-           crc_table[1][high >> 16 & 255] ^ crc_table[0][high >> 24];
+    return crc_table[7][low & 255] ^ crc_table[6][low >> 8 & 255] ^ crc_table[5][low >> 16 & 255] ^ crc_table[4][low >> 24] ^
+           crc_table[3][high & 255] ^ crc_table[2][high >> 8 & 255] ^ crc_table[1][high >> 16 & 255] ^ crc_table[0][high >> 24];
 }
 
 uint32_t enf_crc32c(uint32_t crc, const void *data, size_t size) {

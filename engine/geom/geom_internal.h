@@ -12,8 +12,9 @@
  *  cross products below 2^61, and int64 never overflows. */
 #define ENF_WINDOW_LIMIT (INT32_C(1) << 29)
 
-/** Each clipped vertex gives four grid points, the corners of the box that surely holds it. */
-#define ENF_HULL_MAX (4 * ENF_CLIPPED_MAX)
+/** Each clipped vertex gives four grid points, the corners of the box that surely holds it; a hull in the making repeats its
+ *  first point, and each side of a box may cut off one corner and leave four points for it. */
+#define ENF_HULL_MAX (4 * ENF_CLIPPED_MAX + 16)
 
 /** Integer points, or a convex polygon of them, counter-clockwise from the leftmost lowest vertex. */
 typedef struct EnfGridPoints {

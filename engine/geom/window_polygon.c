@@ -2,11 +2,20 @@
  * hulls in two dimensions", 1979); nothing here rounds but outward. */
 #include "geom/geom_internal.h"
 
+#include <string.h>
+
 void enf_grid_points_add(EnfGridPoints *points, int32_t x, int32_t y) {
     ENF_ASSERT(points->count < ENF_HULL_MAX);
     points->x[points->count] = x;
     points->y[points->count] = y;
     points->count++;
+}
+
+/* The points in use only: the arrays are far larger than what they usually hold. */
+static void copy_points(EnfGridPoints *to, const EnfGridPoints *from) {
+    to->count = from->count;
+    memcpy(to->x, from->x, from->count * sizeof to->x[0]);
+    memcpy(to->y, from->y, from->count * sizeof to->y[0]);
 }
 
 /* ---- hull ------------------------------------------------------------------------------------------------------- */
@@ -31,11 +40,14 @@ static void sort_points(EnfGridPoints *p) {
 }
 
 /* Appends a point to the chain that begins at `first`, removing what no longer turns left. */
-static void chain_add(EnfGridPoints *chain, uint32_t first, int32_t x, int32_t y) {
-    while (chain->count >= first + 2 && turn(chain->x, chain->y, chain->count - 2, chain->count - 1, x, y) <= 0) {
-        chain->count--;
+static inline void chain_add(EnfGridPoints *chain, uint32_t first, int32_t x, int32_t y) {
+    uint32_t count = chain->count;
+    while (count >= first + 2 && turn(chain->x, chain->y, count - 2, count - 1, x, y) <= 0) {
+        count--;
     }
-    enf_grid_points_add(chain, x, y);
+    chain->x[count] = x;
+    chain->y[count] = y;
+    chain->count = count + 1;
 }
 
 void enf_grid_points_hull(EnfGridPoints *points) {
@@ -54,14 +66,26 @@ void enf_grid_points_hull(EnfGridPoints *points) {
         chain_add(&hull, upper, points->x[i], points->y[i]);
     }
     hull.count--; /* the first point closed the ring */
-    points->count = hull.count < 3 ? 0 : hull.count;
-    for (uint32_t i = 0; i < points->count; i++) {
-        points->x[i] = hull.x[i];
-        points->y[i] = hull.y[i];
-    }
+    hull.count = hull.count < 3 ? 0 : hull.count;
+    copy_points(points, &hull);
 }
 
 /* ---- clipping a hull to a box ----------------------------------------------------------------------------------- */
+
+static EnfWindow bounds_of(const int32_t *x, const int32_t *y, uint32_t count) {
+    EnfWindow w = {0, 0, 0, 0};
+    if (count > 0) {
+        w.x0 = w.x1 = x[0];
+        w.y0 = w.y1 = y[0];
+    }
+    for (uint32_t i = 1; i < count; i++) {
+        w.x0 = x[i] < w.x0 ? x[i] : w.x0;
+        w.x1 = x[i] > w.x1 ? x[i] : w.x1;
+        w.y0 = y[i] < w.y0 ? y[i] : w.y0;
+        w.y1 = y[i] > w.y1 ? y[i] : w.y1;
+    }
+    return w;
+}
 
 static int64_t floor_divide(int64_t a, int64_t b) {
     int64_t quotient = a / b;
@@ -72,13 +96,6 @@ static int64_t floor_divide(int64_t a, int64_t b) {
  * neighbours on the grid are kept, so the result contains the exact clip and lies on the side. */
 static void clip_to_side(EnfGridPoints *p, bool vertical, int sign, int32_t limit) {
     const int32_t *u = vertical ? p->y : p->x, *v = vertical ? p->x : p->y;
-    bool all_inside = true;
-    for (uint32_t i = 0; i < p->count; i++) {
-        all_inside = all_inside && sign * (int64_t)u[i] >= sign * (int64_t)limit;
-    }
-    if (all_inside) {
-        return;
-    }
     EnfGridPoints kept;
     kept.count = 0;
     for (uint32_t i = 0; i < p->count; i++) {
@@ -96,29 +113,27 @@ static void clip_to_side(EnfGridPoints *p, bool vertical, int sign, int32_t limi
         enf_grid_points_add(&kept, vertical ? low : limit, vertical ? limit : low);
         enf_grid_points_add(&kept, vertical ? high : limit, vertical ? limit : high);
     }
-    *p = kept;
+    copy_points(p, &kept);
     enf_grid_points_hull(p);
 }
 
 void enf_grid_points_clip(EnfGridPoints *points, EnfWindow box) {
-    clip_to_side(points, false, 1, box.x0);
-    clip_to_side(points, false, -1, box.x1);
-    clip_to_side(points, true, 1, box.y0);
-    clip_to_side(points, true, -1, box.y1);
+    EnfWindow bounds = bounds_of(points->x, points->y, points->count);
+    if (bounds.x0 < box.x0) {
+        clip_to_side(points, false, 1, box.x0);
+    }
+    if (bounds.x1 > box.x1) {
+        clip_to_side(points, false, -1, box.x1);
+    }
+    if (bounds.y0 < box.y0) {
+        clip_to_side(points, true, 1, box.y0);
+    }
+    if (bounds.y1 > box.y1) {
+        clip_to_side(points, true, -1, box.y1);
+    }
 }
 
 /* ---- windows ---------------------------------------------------------------------------------------------------- */
-
-static EnfWindow bounds_of(const int32_t *x, const int32_t *y, uint32_t count) {
-    EnfWindow w = {0, 0, 0, 0};
-    for (uint32_t i = 0; i < count; i++) {
-        w.x0 = i == 0 || x[i] < w.x0 ? x[i] : w.x0;
-        w.x1 = i == 0 || x[i] > w.x1 ? x[i] : w.x1;
-        w.y0 = i == 0 || y[i] < w.y0 ? y[i] : w.y0;
-        w.y1 = i == 0 || y[i] > w.y1 ? y[i] : w.y1;
-    }
-    return w;
-}
 
 void enf_grid_points_window(const EnfGridPoints *points, EnfWindowPolygon *out) {
     if (points->count > ENF_WINDOW_POLYGON_MAX) {

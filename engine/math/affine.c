@@ -3,38 +3,32 @@
 
 #include <math.h>
 
-EnfAffine enf_affine_identity(void)
-{
+EnfAffine enf_affine_identity(void) {
     EnfAffine a = {{1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}};
     return a;
 }
 
-EnfVec3 enf_affine_vector(const EnfAffine *a, EnfVec3 v)
-{
+EnfVec3 enf_affine_vector(const EnfAffine *a, EnfVec3 v) {
     const double *m = a->m;
     return enf_v3(m[0] * v.x + m[3] * v.y + m[6] * v.z, m[1] * v.x + m[4] * v.y + m[7] * v.z,
                   m[2] * v.x + m[5] * v.y + m[8] * v.z);
 }
 
-EnfVec3 enf_affine_point(const EnfAffine *a, EnfVec3 p)
-{
+EnfVec3 enf_affine_point(const EnfAffine *a, EnfVec3 p) {
     return enf_add(enf_affine_vector(a, p), a->t);
 }
 
-static EnfVec3 column(const EnfAffine *a, int c)
-{
+static EnfVec3 column(const EnfAffine *a, int c) {
     return enf_v3(a->m[3 * c], a->m[3 * c + 1], a->m[3 * c + 2]);
 }
 
-static void set_column(EnfAffine *a, int c, EnfVec3 v)
-{
+static void set_column(EnfAffine *a, int c, EnfVec3 v) {
     a->m[3 * c] = v.x;
     a->m[3 * c + 1] = v.y;
     a->m[3 * c + 2] = v.z;
 }
 
-EnfAffine enf_affine_mul(EnfAffine a, EnfAffine b)
-{
+EnfAffine enf_affine_mul(EnfAffine a, EnfAffine b) {
     EnfAffine product;
     for (int c = 0; c < 3; c++) {
         set_column(&product, c, enf_affine_vector(&a, column(&b, c)));
@@ -43,8 +37,7 @@ EnfAffine enf_affine_mul(EnfAffine a, EnfAffine b)
     return product;
 }
 
-EnfAffine enf_affine_trs(EnfVec3 t, EnfQuat r, EnfVec3 s)
-{
+EnfAffine enf_affine_trs(EnfVec3 t, EnfQuat r, EnfVec3 s) {
     double norm2 = r.x * r.x + r.y * r.y + r.z * r.z + r.w * r.w;
     /* 2/|r|² makes a rotation of any quaternion but zero, so one that a file rounded needs no normalising. */
     double k = norm2 > 0.0 ? 2.0 / norm2 : 0.0;
@@ -59,20 +52,17 @@ EnfAffine enf_affine_trs(EnfVec3 t, EnfQuat r, EnfVec3 s)
     return a;
 }
 
-double enf_affine_det(const EnfAffine *a)
-{
+double enf_affine_det(const EnfAffine *a) {
     return enf_dot(column(a, 0), enf_cross(column(a, 1), column(a, 2)));
 }
 
 /* The sum of the absolute values: the length that bounds every product in the determinant. */
-static double column_size(const EnfAffine *a, int c)
-{
+static double column_size(const EnfAffine *a, int c) {
     EnfVec3 v = column(a, c);
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-bool enf_affine_inverse(const EnfAffine *a, EnfAffine *out)
-{
+bool enf_affine_inverse(const EnfAffine *a, EnfAffine *out) {
     EnfAffine from = *a; /* `out` may be `a` */
     *out = enf_affine_identity();
     double det = enf_affine_det(&from);
@@ -99,15 +89,13 @@ bool enf_affine_inverse(const EnfAffine *a, EnfAffine *out)
     return true;
 }
 
-EnfQuat enf_quat_axis_angle(EnfVec3 axis, double radians)
-{
+EnfQuat enf_quat_axis_angle(EnfVec3 axis, double radians) {
     EnfVec3 v = enf_scale(enf_normalize(axis), enf_sin(0.5 * radians));
     EnfQuat q = {v.x, v.y, v.z, enf_cos(0.5 * radians)};
     return q;
 }
 
-EnfQuat enf_quat_mul(EnfQuat a, EnfQuat b)
-{
+EnfQuat enf_quat_mul(EnfQuat a, EnfQuat b) {
     EnfQuat q = {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
                  a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
     return q;

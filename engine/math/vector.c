@@ -6,27 +6,23 @@
 
 /* ---- vectors ---------------------------------------------------------------------------------------------------- */
 
-static double largest_component(EnfVec3 a)
-{
+static double largest_component(EnfVec3 a) {
     return fmax(fmax(fabs(a.x), fabs(a.y)), fabs(a.z));
 }
 
 /* A power of two that brings `size` to where squares neither overflow nor lose bits. 2^600 lifts the least subnormal
  * (2^-1074) and lowers the largest double alike; scaling by it is exact. */
-static double safe_scale(double size)
-{
+static double safe_scale(double size) {
     return size > 0x1p500 ? 0x1p-600 : size < 0x1p-400 ? 0x1p600 : 1.0;
 }
 
-double enf_length(EnfVec3 a)
-{
+double enf_length(EnfVec3 a) {
     double scale = safe_scale(largest_component(a));
     EnfVec3 b = enf_scale(a, scale);
     return sqrt(enf_dot(b, b)) / scale;
 }
 
-EnfVec3 enf_normalize(EnfVec3 a)
-{
+EnfVec3 enf_normalize(EnfVec3 a) {
     double size = largest_component(a);
     if (!(size > 0.0) || !enf_v3_finite(a)) {
         return enf_v3(0.0, 0.0, 0.0);
@@ -36,37 +32,31 @@ EnfVec3 enf_normalize(EnfVec3 a)
     return enf_v3(b.x / length, b.y / length, b.z / length);
 }
 
-bool enf_v3_finite(EnfVec3 a)
-{
+bool enf_v3_finite(EnfVec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
 /* ---- boxes ------------------------------------------------------------------------------------------------------ */
 
-EnfBox3 enf_box3_empty(void)
-{
+EnfBox3 enf_box3_empty(void) {
     EnfBox3 box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
     return box;
 }
 
-static EnfVec3 min_each(EnfVec3 a, EnfVec3 b)
-{
+static EnfVec3 min_each(EnfVec3 a, EnfVec3 b) {
     return enf_v3(a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z);
 }
 
-static EnfVec3 max_each(EnfVec3 a, EnfVec3 b)
-{
+static EnfVec3 max_each(EnfVec3 a, EnfVec3 b) {
     return enf_v3(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
 
-EnfBox3 enf_box3_add(EnfBox3 box, EnfVec3 p)
-{
+EnfBox3 enf_box3_add(EnfBox3 box, EnfVec3 p) {
     EnfBox3 sum = {min_each(box.min, p), max_each(box.max, p)};
     return sum;
 }
 
-EnfBox3 enf_box3_union(EnfBox3 a, EnfBox3 b)
-{
+EnfBox3 enf_box3_union(EnfBox3 a, EnfBox3 b) {
     if (enf_box3_is_empty(a)) {
         return b;
     }
@@ -77,18 +67,15 @@ EnfBox3 enf_box3_union(EnfBox3 a, EnfBox3 b)
     return sum;
 }
 
-bool enf_box3_is_empty(EnfBox3 box)
-{
+bool enf_box3_is_empty(EnfBox3 box) {
     return box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z;
 }
 
-bool enf_box3_contains(EnfBox3 box, EnfVec3 p)
-{
+bool enf_box3_contains(EnfBox3 box, EnfVec3 p) {
     return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y && p.z >= box.min.z && p.z <= box.max.z;
 }
 
-bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b)
-{
+bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
            b.min.z <= a.max.z;
 }
@@ -96,8 +83,7 @@ bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b)
 /* ---- rounding outward ------------------------------------------------------------------------------------------- */
 
 /* What is not a number goes to the far end: a box of it contains everything, and nothing is hidden. */
-float enf_round_down(double value)
-{
+float enf_round_down(double value) {
     if (!(value >= (double)-FLT_MAX)) {
         return -FLT_MAX;
     }
@@ -108,28 +94,24 @@ float enf_round_down(double value)
     return (double)nearest > value ? nextafterf(nearest, -FLT_MAX) : nearest;
 }
 
-float enf_round_up(double value)
-{
+float enf_round_up(double value) {
     return -enf_round_down(-value);
 }
 
-EnfBox3f enf_box3f_outward(EnfBox3 box)
-{
+EnfBox3f enf_box3f_outward(EnfBox3 box) {
     EnfBox3f out = {{enf_round_down(box.min.x), enf_round_down(box.min.y), enf_round_down(box.min.z)},
                     {enf_round_up(box.max.x), enf_round_up(box.max.y), enf_round_up(box.max.z)}};
     return out;
 }
 
-EnfBox3 enf_box3_from_f(EnfBox3f box)
-{
+EnfBox3 enf_box3_from_f(EnfBox3f box) {
     EnfBox3 out = {enf_v3_from_f(box.min), enf_v3_from_f(box.max)};
     return out;
 }
 
 /* ---- planes ----------------------------------------------------------------------------------------------------- */
 
-EnfPlane enf_plane_from_polygon(const EnfVec3 *points, uint32_t count)
-{
+EnfPlane enf_plane_from_polygon(const EnfVec3 *points, uint32_t count) {
     EnfPlane plane = {{0.0, 0.0, 0.0}, 0.0};
     if (count < 3) {
         return plane;
