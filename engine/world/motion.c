@@ -8,6 +8,8 @@
 #include <math.h>
 
 #define BOUND_ERROR 0x1p-40
+/* The box of one pose is widened by half as much, so that the box of any state lies within the bound of any range holding it. */
+#define POSE_ERROR 0x1p-41
 
 static const double tick_seconds = 1.0 / ENF_TICK_RATE;
 
@@ -163,10 +165,10 @@ static EnfBox3 cube(double radius) {
 }
 
 /* Box sum, widened outward by the error of what made it. */
-static EnfBox3 swept(EnfBox3 position, EnfBox3 extent) {
+static EnfBox3 swept(EnfBox3 position, EnfBox3 extent, double error) {
     EnfBox3 out = {enf_add(position.min, extent.min), enf_add(position.max, extent.max)};
     double size = fmax(farthest(&position), 0.0) + farthest(&extent);
-    EnfVec3 margin = enf_v3(BOUND_ERROR * size, BOUND_ERROR * size, BOUND_ERROR * size);
+    EnfVec3 margin = enf_v3(error * size, error * size, error * size);
     out.min = enf_sub(out.min, margin);
     out.max = enf_add(out.max, margin);
     return out;
@@ -179,14 +181,14 @@ static EnfBox3 path_bound(const EnfPathMotion *path, const EnfBox3 *local, int64
     EnfBox3 scale = range_over(path, &path->scale, path->rest.scale, runs, count);
     EnfBox3 extent = scaled_box(local, &scale);
     bool turns = path->rotation.key_count > 0;
-    return swept(position, turns ? cube(farthest(&extent)) : turned_box(&extent, path->rest.rotation));
+    return swept(position, turns ? cube(farthest(&extent)) : turned_box(&extent, path->rest.rotation), BOUND_ERROR);
 }
 
 static EnfBox3 pose_bound(const EnfPose *pose, const EnfBox3 *local) {
     EnfBox3 scale = {pose->scale, pose->scale};
     EnfBox3 extent = scaled_box(local, &scale);
     EnfBox3 position = {pose->position, pose->position};
-    return swept(position, turned_box(&extent, pose->rotation));
+    return swept(position, turned_box(&extent, pose->rotation), POSE_ERROR);
 }
 
 /* ---- doors ------------------------------------------------------------------------------------------------------ */
@@ -234,7 +236,7 @@ static EnfBox3 hinge_bound(const EnfSwingMotion *swing, const EnfBox3 *local, do
     }
     double half = 0.5 * fabs(to - from) / STEPS;
     double bulge = radius * (half < 0.5 * ENF_PI ? 1.0 - enf_cos(half) : 2.0) + BOUND_ERROR * radius;
-    return swept(all, cube(bulge));
+    return swept(all, cube(bulge), BOUND_ERROR);
 }
 
 static EnfBox3 swing_bound(const EnfMotion *motion, const EnfBox3 *local, int64_t tick0, int64_t tick1) {
@@ -246,7 +248,7 @@ static EnfBox3 swing_bound(const EnfMotion *motion, const EnfBox3 *local, int64_
     }
     EnfPose a = slide_pose(swing, from);
     EnfPose b = slide_pose(swing, to);
-    return enf_box3_union(pose_bound(&a, local), pose_bound(&b, local));
+    return swept(enf_box3_union(pose_bound(&a, local), pose_bound(&b, local)), cube(0.0), BOUND_ERROR);
 }
 
 void enf_swing_set(EnfMotion *motion, int64_t tick, double target) {
@@ -272,7 +274,7 @@ void enf_free_push(EnfMotion *motion, int64_t tick, EnfPose pose) {
 
 static EnfBox3 free_bound(const EnfFreeMotion *free, const EnfBox3 *local, int64_t tick1) {
     int64_t elapsed = tick1 > free->push_tick ? tick1 - free->push_tick : 0;
-    return swept(pose_bound(&free->pose, local), cube(free->max_speed * tick_seconds * (double)elapsed));
+    return swept(pose_bound(&free->pose, local), cube(free->max_speed * tick_seconds * (double)elapsed), BOUND_ERROR);
 }
 
 EnfPose enf_motion_state(const EnfMotion *motion, int64_t tick) {
@@ -284,7 +286,7 @@ EnfPose enf_motion_state(const EnfMotion *motion, int64_t tick) {
     case ENF_MOTION_SLIDE:
         return slide_pose(&motion->as.swing, swing_at(&motion->as.swing, tick));
     case ENF_MOTION_FREE:
-        return motion->as.free.pose;
+        return motion->as.free.ask != NULL ? motion->as.free.ask(motion->as.free.user, tick) : motion->as.free.pose;
     case ENF_MOTION_CALLBACK:
         return motion->as.callback.state(motion->as.callback.user, tick);
     case ENF_MOTION_STILL:

@@ -54,8 +54,7 @@ typedef struct EnfKdBuilt {
 EnfResult enf_kd_build(EnfKdBuilt *out, const EnfBox3f *boxes, const uint32_t *items, uint32_t count,
                        const EnfAllocator *allocator, EnfError *error);
 void enf_kd_built_free(EnfKdBuilt *built);
-static inline EnfKdTree enf_kd_tree(const EnfKdBuilt *b)
-{
+static inline EnfKdTree enf_kd_tree(const EnfKdBuilt *b) {
     EnfKdTree t = {b->nodes, b->blocks, b->node_count, b->block_count};
     return t;
 }

@@ -210,8 +210,7 @@ EnfResult enf_map_write(const EnfMap *map, const char *path, EnfError *error);
 uint64_t enf_map_content_hash(const EnfMap *map);
 
 /** A string of the map; "" for offset 0. */
-static inline const char *enf_map_string(const EnfMap *map, uint32_t offset)
-{
+static inline const char *enf_map_string(const EnfMap *map, uint32_t offset) {
     return map->strings + offset;
 }
 

@@ -45,38 +45,30 @@ typedef struct EnfMat4f {
     float m[16];
 } EnfMat4f;
 
-static inline EnfVec3 enf_v3(double x, double y, double z)
-{
+static inline EnfVec3 enf_v3(double x, double y, double z) {
     EnfVec3 v = {x, y, z};
     return v;
 }
-static inline EnfVec3 enf_v3_from_f(EnfVec3f a)
-{
+static inline EnfVec3 enf_v3_from_f(EnfVec3f a) {
     return enf_v3((double)a.x, (double)a.y, (double)a.z);
 }
-static inline EnfVec3f enf_v3f(EnfVec3 a)
-{
+static inline EnfVec3f enf_v3f(EnfVec3 a) {
     EnfVec3f v = {(float)a.x, (float)a.y, (float)a.z};
     return v;
 }
-static inline EnfVec3 enf_add(EnfVec3 a, EnfVec3 b)
-{
+static inline EnfVec3 enf_add(EnfVec3 a, EnfVec3 b) {
     return enf_v3(a.x + b.x, a.y + b.y, a.z + b.z);
 }
-static inline EnfVec3 enf_sub(EnfVec3 a, EnfVec3 b)
-{
+static inline EnfVec3 enf_sub(EnfVec3 a, EnfVec3 b) {
     return enf_v3(a.x - b.x, a.y - b.y, a.z - b.z);
 }
-static inline EnfVec3 enf_scale(EnfVec3 a, double s)
-{
+static inline EnfVec3 enf_scale(EnfVec3 a, double s) {
     return enf_v3(a.x * s, a.y * s, a.z * s);
 }
-static inline double enf_dot(EnfVec3 a, EnfVec3 b)
-{
+static inline double enf_dot(EnfVec3 a, EnfVec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-static inline EnfVec3 enf_cross(EnfVec3 a, EnfVec3 b)
-{
+static inline EnfVec3 enf_cross(EnfVec3 a, EnfVec3 b) {
     return enf_v3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 double enf_length(EnfVec3 a);

@@ -92,8 +92,10 @@ typedef struct EnfSwingMotion {
 /** Anything of which only a largest speed is known; the caller pushes poses (enf_free_push). */
 typedef struct EnfFreeMotion {
     EnfPose pose;
-    int64_t push_tick; /**< when `pose` was true */
-    double max_speed;  /**< metres a second, of any point of the object, turning included */
+    int64_t push_tick;                              /**< when `pose` was true */
+    double max_speed;                               /**< metres a second, of any point of the object, turning included */
+    EnfPose (*ask)(const void *user, int64_t tick); /**< where it is now (a simulation, a server), or NULL: it is pushed */
+    const void *user;
 } EnfFreeMotion;
 
 /** A motion of the caller's. Both functions are pure in (user, ticks). */
@@ -124,7 +126,7 @@ typedef struct EnfMotion {
 } EnfMotion;
 
 /** The pose at a tick: a pure function of motion and tick, whatever was asked before, so an object that slept a million ticks
- *  wakes where it would be (DESIGN §5). FREE answers the pose pushed last. @cost O(log keys). */
+ *  wakes where it would be (DESIGN §5). FREE asks, or answers the pose pushed last. @cost O(log keys). */
 EnfPose enf_motion_state(const EnfMotion *motion, int64_t tick);
 
 /** A box (world) that contains every point of the object's `local` box at every tick of [tick0, tick1] (tick0 <= tick1), rounded
@@ -142,6 +144,73 @@ void enf_free_push(EnfMotion *motion, int64_t tick, EnfPose pose);
 /** A smooth path through points (Catmull–Rom) as a cubic track: writes 9 floats a key into `values` (in-tangent, point,
  *  out-tangent). `times` ascend strictly. Source: Catmull & Rom 1974, in the Hermite form of glTF. */
 void enf_catmull_rom(const float *times, const float *points, uint32_t count, float *values);
+
+/* ---- objects ---------------------------------------------------------------------------------------------------- */
+
+/** Names an object for as long as it lives; a removed object's id is never valid again. Generation 0 is null. */
+typedef struct EnfObjectId {
+    uint32_t index, generation;
+} EnfObjectId;
+
+/** What an object is made from; start with enf_object_def_default(). */
+typedef struct EnfObjectDef {
+    EnfMotion motion; /**< its arrays are borrowed for the object's life */
+    EnfBox3 local;    /**< holds the object in its own space, metres */
+    double max_speed; /**< metres a second, of any point; HUGE_VAL where unknown (paths and doors are bounded anyway) */
+    uint32_t mesh;    /**< the caller's */
+    uint64_t user;    /**< the caller's */
+} EnfObjectDef;
+EnfObjectDef enf_object_def_default(void);
+
+typedef struct EnfWorld EnfWorld;
+
+/** An empty world at tick 0 in `map`, with room for `capacity` objects before it grows. */
+EnfResult enf_world_create(EnfWorld **world, const EnfMap *map, uint32_t capacity, const EnfAllocator *allocator,
+                           EnfError *error);
+void enf_world_destroy(EnfWorld *world);
+const EnfMap *enf_world_map(const EnfWorld *world);
+
+int64_t enf_world_tick(const EnfWorld *world);
+/** Time passes; nothing moves until it is asked for. Forgets the changes of the ticks before. ticks >= 0. */
+void enf_world_advance(EnfWorld *world, int64_t ticks);
+
+/** Null (generation 0) with `error` when memory is out. */
+EnfObjectId enf_world_add(EnfWorld *world, const EnfObjectDef *def, EnfError *error);
+/** False if `id` is not alive. */
+bool enf_world_remove(EnfWorld *world, EnfObjectId id);
+bool enf_world_alive(const EnfWorld *world, EnfObjectId id);
+/** Teleports or re-parameterises: the object moves by `motion` from this tick on. */
+bool enf_world_set_motion(EnfWorld *world, EnfObjectId id, const EnfMotion *motion);
+/** Sends a door towards `target` from this tick on. */
+bool enf_world_swing(EnfWorld *world, EnfObjectId id, double target);
+
+/** One past the largest index ever used; indices of dead objects are re-used. */
+uint32_t enf_world_object_limit(const EnfWorld *world);
+/** The id at an index; null if none lives there. */
+EnfObjectId enf_world_object(const EnfWorld *world, uint32_t index);
+uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index);
+
+/** Pose and world box (float, rounded outward) of a living object at the world's tick; each counts as one evaluation. */
+EnfPose enf_world_pose(EnfWorld *world, uint32_t index);
+EnfBox3f enf_world_box(EnfWorld *world, uint32_t index);
+/** A box that holds the object at every tick from now to `until` (asks a FREE one where it is, first). */
+EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until);
+double enf_world_max_speed(const EnfWorld *world, uint32_t index);
+/** Is its motion FREE: nothing known but a largest speed? */
+bool enf_world_is_free(const EnfWorld *world, uint32_t index);
+/** Motions evaluated since the world was made. */
+uint64_t enf_world_evaluations(const EnfWorld *world);
+
+/** Indices of objects added, removed or changed since the last enf_world_advance, in order, repeats included. Indices over the
+ *  map's cells see it once a tick (engine/dbv). */
+const uint32_t *enf_world_changes(const EnfWorld *world, uint32_t *count);
+
+/** Does an object with this box touch a cell: do box and cell bounds overlap by more than a grid step? (PITFALLS 9: an object is
+ *  in every cell that it touches.) */
+bool enf_world_touches(const EnfMap *map, uint32_t cell, EnfBox3f box);
+
+/** `box` relative to the origin of `cell`, rounded outward: for pyramids of that cell. */
+EnfBox3f enf_world_box_in_cell(const EnfMap *map, uint32_t cell, EnfBox3f box);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,134 @@
+/* The parts of an EnfDbvIndex and the steps between its files:
+ *
+ *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; covers, links, LCA
+ *   wheel.c   the expiry queue
+ *   period.c  how long a volume is valid (the policies)
+ *   frame.c   begin, see, end
+ *   index.c   memory */
+#ifndef ENFILADE_DBV_INTERNAL_H
+#define ENFILADE_DBV_INTERNAL_H
+
+#include <enfilade/dbv.h>
+
+/** Places that one volume hangs on at most. More would cover it tighter and cost more to move: four cells meet in a corner of
+ *  rooms, and one is for what lies in no room. */
+#define ENF_DBV_LINKS 5U
+
+/** A volume's link to a place: a doubly linked list a place; an entry's number is object * ENF_DBV_LINKS + link. */
+typedef struct EnfDbvLink {
+    uint32_t place, next, previous;
+} EnfDbvLink;
+
+/** A volume: 120 bytes, two cache lines mostly. */
+typedef struct EnfDbvVolume {
+    EnfBox3f box; /**< world */
+    uint32_t wheel_next, wheel_previous;
+    int64_t expiry_tick;
+    uint32_t period;        /**< ticks that it was made for */
+    uint32_t bad_period;    /**< OPTIMAL: the shortest that was seen; 0: none yet */
+    uint32_t exposed_frame; /**< the frame that exposed it last */
+    uint32_t exposure;      /**< and its exposure there */
+    uint16_t wheel_slot;    /**< ENF_DBV_NO_SLOT: not in the queue */
+    uint8_t link_count;
+    bool alive;
+    EnfDbvLink links[ENF_DBV_LINKS];
+} EnfDbvVolume;
+
+/* ---- places ----------------------------------------------------------------------------------------------------- */
+
+/** All places: first the nodes of the map's tree over cells, then the cells, then the kd nodes of all cells. */
+typedef struct EnfDbvPlaces {
+    const EnfMap *map;
+    uint32_t cells_first, nodes_first, count;
+    uint32_t *parents;   /**< ENF_NONE at the root of the cells' tree and for the OUTSIDE cell */
+    uint32_t *heads;     /**< a place: first entry, or ENF_NONE */
+    uint32_t *below;     /**< a place within a cell (kd nodes): entries there and beneath; others 0 */
+    bool *shared;        /**< a node or cell: cells from elsewhere reach into its box */
+    uint32_t *hot_frame; /**< a place that is or holds a seen cell: the frame that saw it */
+} EnfDbvPlaces;
+
+/** The wheel: four levels of 256 slots; level l turns once in 256^(l+1) ticks (Varghese & Lauck 1987). */
+enum {
+    ENF_DBV_LEVELS = 4,
+    ENF_DBV_SLOTS = 256,
+    ENF_DBV_WAITING = ENF_DBV_LEVELS * ENF_DBV_SLOTS, /* a last slot: beyond the last level's turn */
+    ENF_DBV_NO_SLOT = 0xffff
+};
+
+typedef struct EnfDbvWheel {
+    int64_t now; /**< everything due at or before it has been taken out */
+    uint32_t heads[ENF_DBV_WAITING + 1];
+    uint64_t occupied[ENF_DBV_LEVELS][ENF_DBV_SLOTS / 64];
+} EnfDbvWheel;
+
+/** An object seen in this frame. */
+typedef struct EnfDbvExposure {
+    uint32_t object;
+    bool drawn;
+    EnfBox3f box; /**< its own, at this tick */
+} EnfDbvExposure;
+
+/** A growing list of numbers that keeps its memory. */
+typedef struct EnfDbvList {
+    uint32_t *items;
+    uint32_t count, capacity;
+} EnfDbvList;
+
+struct EnfDbvIndex {
+    EnfWorld *world;
+    const EnfMap *map;
+    const EnfAllocator *allocator;
+    EnfDbvDef def;
+    EnfDbvPlaces places;
+    EnfDbvWheel wheel;
+    EnfDbvVolume *volumes;
+    uint32_t volume_count, volume_capacity, alive_count;
+    EnfDbvExposure *exposures;
+    uint32_t exposure_count, exposure_capacity;
+    EnfDbvList due, disturbed, drawn;
+    uint32_t frame;     /**< stamps; 0 never */
+    uint32_t hot_frame; /**< the frame whose seen cells count as seen: the last that saw any */
+    bool first;         /**< the world's objects have not been taken in yet */
+    bool failed;        /**< memory ran out in this frame: something may be missing */
+    EnfDbvCounters counters, total;
+};
+
+/* places.c */
+EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const EnfAllocator *allocator, EnfError *error);
+void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator);
+void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
+/** Hangs an object's volume on the deepest places that cover it, at most ENF_DBV_LINKS, seen ones split first. `from`: a place to
+ *  begin the climb at (the volume's old one), or ENF_NONE for the root. True if one of the places holds a cell seen in the last
+ *  frame. */
+bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, uint32_t from);
+/** Does `box` touch a cell seen in the last frame? */
+bool enf_dbv_touches_seen(EnfDbvIndex *index, EnfBox3f box);
+/** The distance from `box` to the nearest cell seen in the last frame; below 0 if it touches one, HUGE_VAL if none was seen. */
+double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
+
+/* wheel.c */
+void enf_dbv_wheel_create(EnfDbvWheel *wheel, int64_t now);
+void enf_dbv_wheel_add(EnfDbvIndex *index, uint32_t object);
+void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object);
+/** Takes out all that are due at or before `tick`, into index->due, in order of (expiry tick, object). False without memory. */
+bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick);
+
+/* period.c */
+/** Why a volume is made anew. */
+typedef enum EnfDbvCause { ENF_DBV_NEW, ENF_DBV_UNSEEN, ENF_DBV_SEEN, ENF_DBV_DRAWN, ENF_DBV_DISTURBED } EnfDbvCause;
+/** Does this policy choose volumes off the seen cells? */
+bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index);
+/** Ticks that the volume of a drawn object is made for, under such a policy. */
+enum { ENF_DBV_DRAWN_PERIOD = 16 };
+/** Makes and hangs a new volume for a living object. */
+void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause);
+
+/* index.c */
+bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item); /**< false without memory */
+/** Sorts numbers by `before`, in place, without heap or recursion (Shell sort, Ciura's gaps): for short lists. */
+typedef bool EnfDbvBefore(const EnfDbvIndex *index, uint32_t a, uint32_t b);
+void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *before);
+bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count);
+bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count);
+
+#endif

@@ -1,0 +1,143 @@
+/* Memory of an index: volumes, lists, the table of places. Arrays grow and keep their size, so a warm frame makes no heap call. */
+#include "dbv/dbv_internal.h"
+
+#include <string.h>
+
+_Static_assert(sizeof(EnfDbvVolume) <= 120, "with the lists of a frame an object costs at most 160 bytes");
+
+EnfDbvDef enf_dbv_def_default(void) {
+    EnfDbvDef def = {ENF_DBV_MAXIMAL, ENF_DBV_LCA, 64, 1U << 30};
+    return def;
+}
+
+EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *def, const EnfAllocator *allocator,
+                         EnfError *error) {
+    *out = NULL;
+    ENF_ASSERT(def->period_ticks >= 1 && def->max_period_ticks >= def->period_ticks);
+    EnfDbvIndex *index = enf_alloc(allocator, 1, sizeof *index);
+    if (index == NULL) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "an index of volumes");
+    }
+    index->world = world;
+    index->map = enf_world_map(world);
+    index->allocator = allocator;
+    index->def = *def;
+    index->first = true;
+    enf_dbv_wheel_create(&index->wheel, enf_world_tick(world));
+    EnfResult result = enf_dbv_places_create(&index->places, index->map, allocator, error);
+    if (result != ENF_OK) {
+        enf_free(allocator, index, 1, sizeof *index);
+        return result;
+    }
+    *out = index;
+    return ENF_OK;
+}
+
+static void free_list(const EnfDbvIndex *index, EnfDbvList *list) {
+    enf_free(index->allocator, list->items, list->capacity, sizeof *list->items);
+}
+
+void enf_dbv_destroy(EnfDbvIndex *index) {
+    if (index == NULL) {
+        return;
+    }
+    enf_dbv_places_destroy(&index->places, index->allocator);
+    enf_free(index->allocator, index->volumes, index->volume_capacity, sizeof *index->volumes);
+    enf_free(index->allocator, index->exposures, index->exposure_capacity, sizeof *index->exposures);
+    free_list(index, &index->due);
+    free_list(index, &index->disturbed);
+    free_list(index, &index->drawn);
+    enf_free(index->allocator, index, 1, sizeof *index);
+}
+
+/* A larger copy of an array in place of the old one; false leaves all as it was. */
+static bool enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *capacity, uint32_t count, size_t size) {
+    if (count <= *capacity) {
+        return true;
+    }
+    uint64_t doubled = (uint64_t)*capacity * 2;
+    uint64_t wanted = doubled > count ? doubled : count;
+    uint32_t next = wanted > UINT32_MAX / ENF_DBV_LINKS ? UINT32_MAX / ENF_DBV_LINKS : (uint32_t)wanted;
+    void *block = next >= count ? enf_alloc(index->allocator, next, size) : NULL;
+    if (block == NULL) {
+        return false;
+    }
+    if (used > 0) {
+        memcpy(block, *array, used * size);
+    }
+    enf_free(index->allocator, *array, *capacity, size);
+    *array = block;
+    *capacity = next;
+    return true;
+}
+
+bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item) {
+    void *items = list->items;
+    if (!enlarge(index, &items, list->count, &list->capacity, list->count + 1, sizeof *list->items)) {
+        return false;
+    }
+    list->items = items;
+    list->items[list->count++] = item;
+    return true;
+}
+
+bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count) {
+    void *volumes = index->volumes;
+    if (!enlarge(index, &volumes, index->volume_count, &index->volume_capacity, count, sizeof *index->volumes)) {
+        return false;
+    }
+    index->volumes = volumes;
+    for (; index->volume_count < count; index->volume_count++) {
+        index->volumes[index->volume_count].wheel_slot = ENF_DBV_NO_SLOT;
+    }
+    return true;
+}
+
+bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
+    void *exposures = index->exposures;
+    if (!enlarge(index, &exposures, index->exposure_count, &index->exposure_capacity, count, sizeof *index->exposures)) {
+        return false;
+    }
+    index->exposures = exposures;
+    return true;
+}
+
+void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *before) {
+    static const uint32_t gaps[] = {1, 4, 10, 23, 57, 132, 301, 701, 1577, 3548, 7983, 17961, 40412, 90927, 204585, 460316};
+    uint32_t *items = list->items;
+    for (size_t g = sizeof gaps / sizeof *gaps; g > 0; g--) {
+        uint32_t gap = gaps[g - 1];
+        for (uint32_t i = gap; i < list->count; i++) {
+            uint32_t moved = items[i];
+            uint32_t j = i;
+            for (; j >= gap && before(index, moved, items[j - gap]); j -= gap) {
+                items[j] = items[j - gap];
+            }
+            items[j] = moved;
+        }
+    }
+}
+
+EnfDbvCounters enf_dbv_frame_counters(const EnfDbvIndex *index) {
+    return index->counters;
+}
+
+EnfDbvCounters enf_dbv_total_counters(const EnfDbvIndex *index) {
+    return index->total;
+}
+
+bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume, int64_t *expiry_tick) {
+    if (object >= index->volume_count || !index->volumes[object].alive) {
+        return false;
+    }
+    *volume = index->volumes[object].box;
+    *expiry_tick = index->volumes[object].expiry_tick;
+    return true;
+}
+
+size_t enf_dbv_bytes(const EnfDbvIndex *index) {
+    size_t lists = index->due.capacity + index->disturbed.capacity + index->drawn.capacity;
+    size_t place = 4 * sizeof(uint32_t) + sizeof(bool);
+    return sizeof *index + index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
+           index->exposure_capacity * sizeof *index->exposures + ((size_t)index->places.count + 1) * place;
+}

@@ -1,0 +1,161 @@
+/* How long a volume is valid: the policies of Sudarsky & Gotsman 1996 §3.2 and of DESIGN §5. A longer period costs fewer renewals
+ * and a looser volume, which is seen sooner. */
+#include "dbv/dbv_internal.h"
+
+#include <math.h>
+
+/* A drawn object will be drawn again: its volume is renewed a few times a second, and is hardly looser than itself. */
+#define DRAWN_PERIOD ((uint32_t)ENF_DBV_DRAWN_PERIOD)
+/* Halvings while a cover holds a seen cell: below it the volume stays, and is tested in the frames that see that cell. */
+#define COVER_TRIES 6U
+
+/* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
+ * does not expire in one (PITFALLS 23). Takes off up to a quarter. */
+static uint32_t spread(uint32_t period, uint32_t object) {
+    uint32_t hash = object * UINT32_C(2654435761);
+    return period - (uint32_t)(((uint64_t)period * (hash >> 16)) >> 18);
+}
+
+static uint32_t clamp_period(const EnfDbvIndex *index, double ticks) {
+    double most = (double)index->def.max_period_ticks;
+    return ticks < 1.0 ? 1U : ticks >= most ? index->def.max_period_ticks : (uint32_t)ticks;
+}
+
+static EnfBox3f bound_for(EnfDbvIndex *index, uint32_t object, uint32_t period) {
+    return enf_world_bound(index->world, object, enf_world_tick(index->world) + (int64_t)period);
+}
+
+/* The longest period whose volume keeps off the seen cells. Where only a speed is known, from the distance; else doubled and
+ * bisected over the motion's own bounds, for ever if the whole path keeps off. */
+static uint32_t maximal(EnfDbvIndex *index, uint32_t object) {
+    EnfBox3f whole = bound_for(index, object, index->def.max_period_ticks);
+    if (!enf_dbv_touches_seen(index, whole)) {
+        return index->def.max_period_ticks;
+    }
+    double gap = enf_dbv_distance_to_seen(index, bound_for(index, object, 0));
+    if (gap < 0.0) {
+        return DRAWN_PERIOD;
+    }
+    double speed = enf_world_max_speed(index->world, object);
+    uint32_t good = speed < HUGE_VAL ? clamp_period(index, 0.99 * gap / speed * ENF_TICK_RATE) : 1U;
+    if (enf_dbv_touches_seen(index, bound_for(index, object, good))) {
+        good = 1; /* the box of a turned object grows by corners: the speed is of its points */
+    }
+    uint32_t bad = good;
+    for (int doublings = 0; doublings < 20; doublings++) {
+        bad = clamp_period(index, 2.0 * (double)bad);
+        if (enf_dbv_touches_seen(index, bound_for(index, object, bad))) {
+            break;
+        }
+        good = bad;
+        if (bad == index->def.max_period_ticks) {
+            return bad;
+        }
+    }
+    while (bad - good > good / 8 + 1) { /* an eighth too short costs less than another bound */
+        uint32_t middle = good + (bad - good) / 2;
+        if (enf_dbv_touches_seen(index, bound_for(index, object, middle))) {
+            bad = middle;
+        } else {
+            good = middle;
+        }
+    }
+    return good;
+}
+
+/* Free objects move by their speed alone, so that their period follows from the distance in one step. */
+static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object) {
+    double gap = enf_dbv_distance_to_seen(index, bound_for(index, object, 0));
+    double speed = enf_world_max_speed(index->world, object);
+    if (gap < 0.0) {
+        return DRAWN_PERIOD;
+    }
+    return speed > 0.0 ? clamp_period(index, 0.99 * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
+}
+
+static uint32_t adaptive(const EnfDbvIndex *index, uint32_t last, EnfDbvCause cause) {
+    switch (cause) {
+    case ENF_DBV_NEW:
+        return index->def.period_ticks;
+    case ENF_DBV_UNSEEN:
+        return clamp_period(index, 2.0 * (double)last);
+    case ENF_DBV_SEEN:
+    case ENF_DBV_DRAWN:
+        return clamp_period(index, 0.5 * (double)last);
+    case ENF_DBV_DISTURBED:
+        break;
+    }
+    return last;
+}
+
+/* Doubled until seen, then between the longest unseen and the shortest seen. When these meet, time has moved on and the search
+ * begins anew from there. */
+static uint32_t optimal(EnfDbvIndex *index, EnfDbvVolume *volume, EnfDbvCause cause) {
+    uint32_t last = volume->period;
+    if (cause == ENF_DBV_NEW) {
+        volume->bad_period = 0;
+        return index->def.period_ticks;
+    }
+    if (cause == ENF_DBV_SEEN || cause == ENF_DBV_DRAWN) {
+        volume->bad_period = last;
+        return clamp_period(index, 0.5 * (double)last);
+    }
+    if (volume->bad_period == 0) {
+        return clamp_period(index, 2.0 * (double)last);
+    }
+    if (volume->bad_period <= last + last / 8 + 1) {
+        volume->bad_period = 0;
+        return last;
+    }
+    return last + (volume->bad_period - last) / 2;
+}
+
+static uint32_t choose(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
+    EnfDbvVolume *volume = &index->volumes[object];
+    switch (index->def.policy) {
+    case ENF_DBV_CONSTANT:
+        return index->def.period_ticks;
+    case ENF_DBV_ADAPTIVE:
+        return adaptive(index, volume->period, cause);
+    case ENF_DBV_OPTIMAL:
+        return optimal(index, volume, cause);
+    case ENF_DBV_MAXIMAL:
+    case ENF_DBV_REACH:
+        break;
+    }
+    if (cause == ENF_DBV_DRAWN) {
+        return DRAWN_PERIOD < index->def.max_period_ticks ? DRAWN_PERIOD : index->def.max_period_ticks;
+    }
+    return enf_world_is_free(index->world, object) ? maximal_free(index, object) : maximal(index, object);
+}
+
+bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index) {
+    return index->def.policy == ENF_DBV_MAXIMAL || index->def.policy == ENF_DBV_REACH;
+}
+
+/* Hangs the volume of `period` ticks. True if its places hold a seen cell. */
+static bool hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
+    EnfDbvVolume *volume = &index->volumes[object];
+    bool climbs = index->def.update == ENF_DBV_LCA && volume->link_count > 0;
+    uint32_t from = climbs ? volume->links[0].place : ENF_NONE;
+    volume->period = period;
+    volume->box = bound_for(index, object, period);
+    volume->expiry_tick = enf_world_tick(index->world) + (int64_t)period;
+    enf_dbv_unhang(index, object);
+    index->counters.reinserted++;
+    return enf_dbv_hang(index, object, from);
+}
+
+void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
+    uint32_t period = choose(index, object, cause);
+    bool exact = index->def.policy == ENF_DBV_CONSTANT || index->def.policy == ENF_DBV_OPTIMAL;
+    period = exact ? period : spread(period, object);
+    enf_dbv_wheel_remove(index, object);
+    bool seen = hang(index, object, period);
+    bool sleeps = cause != ENF_DBV_DRAWN && enf_dbv_keeps_off_seen(index);
+    for (uint32_t i = 0; i < COVER_TRIES && seen && sleeps && period > DRAWN_PERIOD; i++) {
+        period /= 2;
+        seen = hang(index, object, period);
+    }
+    enf_dbv_wheel_add(index, object);
+}

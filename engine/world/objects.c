@@ -1,0 +1,289 @@
+/* EnfWorld: objects with generational ids, integer time, and the list of what changed this tick. Nothing moves by itself: a pose is
+ * worked out when it is asked for (DESIGN §5), and each such evaluation is counted. */
+#include <enfilade/tolerances.h>
+#include <enfilade/world.h>
+
+#include <math.h>
+#include <string.h>
+
+/* What is kept of an object beside its motion. */
+typedef struct Object {
+    EnfBox3 local;
+    double max_speed;
+    uint64_t user;
+    uint32_t generation; /* odd: alive */
+    uint32_t mesh;
+} Object;
+
+struct EnfWorld {
+    const EnfMap *map;
+    const EnfAllocator *allocator;
+    int64_t tick;
+    uint64_t evaluations;
+    Object *objects;
+    EnfMotion *motions;
+    uint32_t *free_indices; /* a stack of the dead */
+    uint32_t limit, capacity, free_count;
+    uint32_t *changes;
+    uint32_t change_count, change_capacity;
+};
+
+EnfObjectDef enf_object_def_default(void) {
+    EnfObjectDef def;
+    memset(&def, 0, sizeof def);
+    def.motion.kind = ENF_MOTION_STILL;
+    def.motion.as.still = enf_pose_identity();
+    def.local.min = enf_v3(-0.5, -0.5, -0.5);
+    def.local.max = enf_v3(0.5, 0.5, 0.5);
+    def.max_speed = HUGE_VAL;
+    return def;
+}
+
+/* Grows an array that lives as long as the world; false leaves it as it was. */
+static bool grow(EnfWorld *world, void **array, uint32_t old_count, uint32_t new_count, size_t size) {
+    void *block = enf_alloc(world->allocator, new_count, size);
+    if (block == NULL) {
+        return false;
+    }
+    if (old_count > 0) {
+        memcpy(block, *array, old_count * size);
+        enf_free(world->allocator, *array, old_count, size);
+    }
+    *array = block;
+    return true;
+}
+
+/* Room for `capacity` objects. Arrays grow one by one: what grew before a failure is merely roomier than it says. */
+static bool reserve_objects(EnfWorld *world, uint32_t capacity) {
+    Object *objects = enf_alloc(world->allocator, capacity, sizeof *objects);
+    EnfMotion *motions = enf_alloc(world->allocator, capacity, sizeof *motions);
+    uint32_t *indices = enf_alloc(world->allocator, capacity, sizeof *indices);
+    if (objects == NULL || motions == NULL || indices == NULL) {
+        enf_free(world->allocator, objects, capacity, sizeof *objects);
+        enf_free(world->allocator, motions, capacity, sizeof *motions);
+        enf_free(world->allocator, indices, capacity, sizeof *indices);
+        return false;
+    }
+    if (world->limit > 0) {
+        memcpy(objects, world->objects, world->limit * sizeof *objects);
+        memcpy(motions, world->motions, world->limit * sizeof *motions);
+        memcpy(indices, world->free_indices, world->free_count * sizeof *indices);
+    }
+    enf_free(world->allocator, world->objects, world->capacity, sizeof *objects);
+    enf_free(world->allocator, world->motions, world->capacity, sizeof *motions);
+    enf_free(world->allocator, world->free_indices, world->capacity, sizeof *indices);
+    world->objects = objects;
+    world->motions = motions;
+    world->free_indices = indices;
+    world->capacity = capacity;
+    return true;
+}
+
+EnfResult enf_world_create(EnfWorld **out, const EnfMap *map, uint32_t capacity, const EnfAllocator *allocator,
+                           EnfError *error) {
+    *out = NULL;
+    EnfWorld *world = enf_alloc(allocator, 1, sizeof *world);
+    if (world != NULL) {
+        world->map = map;
+        world->allocator = allocator;
+        if (!reserve_objects(world, capacity > 0 ? capacity : 16)) {
+            enf_world_destroy(world);
+            world = NULL;
+        }
+    }
+    if (world == NULL) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "a world of %u objects", capacity);
+    }
+    *out = world;
+    return ENF_OK;
+}
+
+void enf_world_destroy(EnfWorld *world) {
+    if (world == NULL) {
+        return;
+    }
+    const EnfAllocator *allocator = world->allocator;
+    enf_free(allocator, world->objects, world->capacity, sizeof *world->objects);
+    enf_free(allocator, world->motions, world->capacity, sizeof *world->motions);
+    enf_free(allocator, world->free_indices, world->capacity, sizeof *world->free_indices);
+    enf_free(allocator, world->changes, world->change_capacity, sizeof *world->changes);
+    enf_free(allocator, world, 1, sizeof *world);
+}
+
+const EnfMap *enf_world_map(const EnfWorld *world) {
+    return world->map;
+}
+
+int64_t enf_world_tick(const EnfWorld *world) {
+    return world->tick;
+}
+
+void enf_world_advance(EnfWorld *world, int64_t ticks) {
+    ENF_ASSERT(ticks >= 0);
+    world->tick += ticks;
+    if (ticks > 0) {
+        world->change_count = 0;
+    }
+}
+
+/* ---- changes ---------------------------------------------------------------------------------------------------- */
+
+static bool reserve_change(EnfWorld *world) {
+    if (world->change_count < world->change_capacity) {
+        return true;
+    }
+    uint32_t capacity = world->change_capacity == 0 ? 64 : world->change_capacity * 2;
+    void *changes = world->changes;
+    bool ok = grow(world, &changes, world->change_capacity, capacity, sizeof *world->changes);
+    world->changes = changes;
+    world->change_capacity = ok ? capacity : world->change_capacity;
+    return ok;
+}
+
+static void note_change(EnfWorld *world, uint32_t index) {
+    world->changes[world->change_count++] = index;
+}
+
+const uint32_t *enf_world_changes(const EnfWorld *world, uint32_t *count) {
+    *count = world->change_count;
+    return world->changes;
+}
+
+/* ---- life ------------------------------------------------------------------------------------------------------- */
+
+/* Free objects ask where they are, so that their bound counts from now. */
+static void refresh_free(EnfWorld *world, uint32_t index) {
+    EnfMotion *motion = &world->motions[index];
+    if (motion->kind == ENF_MOTION_FREE && motion->as.free.ask != NULL) {
+        enf_free_push(motion, world->tick, motion->as.free.ask(motion->as.free.user, world->tick));
+    }
+}
+
+EnfObjectId enf_world_add(EnfWorld *world, const EnfObjectDef *def, EnfError *error) {
+    EnfObjectId id = {0, 0};
+    bool room = world->free_count > 0 || world->limit < world->capacity ||
+                (world->capacity < UINT32_MAX / 2 && reserve_objects(world, world->capacity * 2));
+    if (!room || !reserve_change(world)) {
+        (void)enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for object %u", world->limit);
+        return id;
+    }
+    id.index = world->free_count > 0 ? world->free_indices[--world->free_count] : world->limit++;
+    Object *object = &world->objects[id.index];
+    object->generation += 1;
+    object->local = def->local;
+    object->max_speed = def->motion.kind == ENF_MOTION_FREE ? def->motion.as.free.max_speed : def->max_speed;
+    object->mesh = def->mesh;
+    object->user = def->user;
+    world->motions[id.index] = def->motion;
+    id.generation = object->generation;
+    note_change(world, id.index);
+    return id;
+}
+
+bool enf_world_alive(const EnfWorld *world, EnfObjectId id) {
+    return id.index < world->limit && id.generation % 2 == 1 && world->objects[id.index].generation == id.generation;
+}
+
+bool enf_world_remove(EnfWorld *world, EnfObjectId id) {
+    if (!enf_world_alive(world, id) || !reserve_change(world)) {
+        return false;
+    }
+    world->objects[id.index].generation += 1;
+    if (world->objects[id.index].generation != UINT32_MAX - 1) { /* an index whose generations are used up rests for ever */
+        world->free_indices[world->free_count++] = id.index;
+    }
+    note_change(world, id.index);
+    return true;
+}
+
+bool enf_world_set_motion(EnfWorld *world, EnfObjectId id, const EnfMotion *motion) {
+    if (!enf_world_alive(world, id) || !reserve_change(world)) {
+        return false;
+    }
+    world->motions[id.index] = *motion;
+    if (motion->kind == ENF_MOTION_FREE) {
+        world->objects[id.index].max_speed = motion->as.free.max_speed;
+    }
+    note_change(world, id.index);
+    return true;
+}
+
+bool enf_world_swing(EnfWorld *world, EnfObjectId id, double target) {
+    if (!enf_world_alive(world, id) || !reserve_change(world)) {
+        return false;
+    }
+    enf_swing_set(&world->motions[id.index], world->tick, target);
+    note_change(world, id.index);
+    return true;
+}
+
+/* ---- reading ---------------------------------------------------------------------------------------------------- */
+
+uint32_t enf_world_object_limit(const EnfWorld *world) {
+    return world->limit;
+}
+
+EnfObjectId enf_world_object(const EnfWorld *world, uint32_t index) {
+    EnfObjectId id = {0, 0};
+    if (index < world->limit && world->objects[index].generation % 2 == 1) {
+        id.index = index;
+        id.generation = world->objects[index].generation;
+    }
+    return id;
+}
+
+uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index) {
+    return world->objects[index].mesh;
+}
+
+EnfPose enf_world_pose(EnfWorld *world, uint32_t index) {
+    world->evaluations++;
+    return enf_motion_state(&world->motions[index], world->tick);
+}
+
+/* The box of one pose is the bound of a motion that stands still there. */
+EnfBox3f enf_world_box(EnfWorld *world, uint32_t index) {
+    EnfMotion still;
+    still.kind = ENF_MOTION_STILL;
+    still.as.still = enf_world_pose(world, index);
+    return enf_box3f_outward(enf_motion_bound(&still, &world->objects[index].local, world->tick, world->tick));
+}
+
+EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until) {
+    world->evaluations++;
+    refresh_free(world, index);
+    return enf_box3f_outward(enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until));
+}
+
+double enf_world_max_speed(const EnfWorld *world, uint32_t index) {
+    return world->objects[index].max_speed;
+}
+
+bool enf_world_is_free(const EnfWorld *world, uint32_t index) {
+    return world->motions[index].kind == ENF_MOTION_FREE;
+}
+
+uint64_t enf_world_evaluations(const EnfWorld *world) {
+    return world->evaluations;
+}
+
+EnfBox3f enf_world_box_in_cell(const EnfMap *map, uint32_t cell, EnfBox3f box) {
+    const double *o = map->cells[cell].origin;
+    EnfVec3 origin = enf_v3(o[0], o[1], o[2]);
+    EnfBox3 local = {enf_sub(enf_v3_from_f(box.min), origin), enf_sub(enf_v3_from_f(box.max), origin)};
+    return enf_box3f_outward(local);
+}
+
+bool enf_world_touches(const EnfMap *map, uint32_t cell, EnfBox3f box) {
+    const EnfCell *c = &map->cells[cell];
+    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z};
+    const double high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    for (int a = 0; a < 3; a++) {
+        double cell_low = c->origin[a] + (double)c->min[a];
+        double cell_high = c->origin[a] + (double)c->max[a];
+        if (!(high[a] > cell_low + ENF_GRID_STEP && low[a] < cell_high - ENF_GRID_STEP)) {
+            return false;
+        }
+    }
+    return true;
+}

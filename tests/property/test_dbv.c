@@ -1,0 +1,281 @@
+/* The set of drawn objects is the same with volumes and without, at every tick, under every policy and update: with objects that move
+ * by every kind of motion, teleport, spawn and die, and an eye that stands, walks and jumps. The oracle tests every object against
+ * every window. */
+#include "harness/harness.h"
+#include "scenes/rooms.h"
+
+#include <enfilade/dbv.h>
+#include <enfilade/vis.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { OBJECTS = 300, KEYS = 6, VARIANTS = 5 };
+
+static const EnfDbvDef variants[VARIANTS] = {
+    {ENF_DBV_CONSTANT, ENF_DBV_LCA, 7, 1U << 30}, {ENF_DBV_ADAPTIVE, ENF_DBV_NAIVE, 4, 1U << 30},
+    {ENF_DBV_MAXIMAL, ENF_DBV_LCA, 16, 1U << 30}, {ENF_DBV_OPTIMAL, ENF_DBV_LCA, 8, 1U << 30},
+    {ENF_DBV_MAXIMAL, ENF_DBV_NAIVE, 16, 500},
+};
+
+/* An object's own arrays. */
+typedef struct Mover {
+    EnfObjectId id;
+    float times[KEYS], values[KEYS * 3];
+    EnfVec3 centre; /* of a free one's circle */
+    double turn;
+} Mover;
+
+typedef struct Stage {
+    EnfRooms rooms;
+    EnfPortals portals;
+    EnfVis *vis;
+    EnfWorld *world;
+    EnfDbvIndex *indices[VARIANTS];
+    Mover movers[OBJECTS];
+    uint64_t drawn;
+} Stage;
+
+static void open_stage(Stage *stage, uint64_t seed) {
+    memset(stage, 0, sizeof *stage);
+    EnfRoomsDef def = enf_rooms_def_default();
+    def.nx = 6;
+    def.nz = 5;
+    def.seed = seed;
+    def.door_percent = 70;
+    EnfError error = {ENF_OK, 0, "", ""};
+    assert_true(enf_rooms_create(&stage->rooms, &def, &error));
+    assert_int_equal(enf_portals_create(&stage->portals, stage->rooms.map, NULL, &error), ENF_OK);
+    assert_int_equal(enf_vis_create(&stage->vis, stage->rooms.map, NULL, &error), ENF_OK);
+    assert_int_equal(enf_world_create(&stage->world, stage->rooms.map, 8, NULL, &error), ENF_OK);
+    for (uint32_t v = 0; v < VARIANTS; v++) {
+        assert_int_equal(enf_dbv_create(&stage->indices[v], stage->world, &variants[v], NULL, &error), ENF_OK);
+    }
+}
+
+static void close_stage(Stage *stage) {
+    for (uint32_t v = 0; v < VARIANTS; v++) {
+        enf_dbv_destroy(stage->indices[v]);
+    }
+    enf_world_destroy(stage->world);
+    enf_vis_destroy(stage->vis);
+    enf_portals_destroy(&stage->portals);
+    enf_rooms_destroy(&stage->rooms);
+}
+
+/* ---- movers ----------------------------------------------------------------------------------------------------- */
+
+static EnfVec3 random_place(EnfTestRng *rng) {
+    return enf_v3(enf_test_double(rng, 0.3, 29.7), enf_test_double(rng, 0.2, 2.5), enf_test_double(rng, 0.3, 24.7));
+}
+
+/* A free object circles at 1 m/s; asked, it tells where it is. */
+static EnfPose on_circle(const void *user, int64_t tick) {
+    const Mover *mover = user;
+    double angle = (double)tick / ENF_TICK_RATE / 2.0 + mover->turn;
+    EnfPose pose = enf_pose_identity();
+    pose.position = enf_add(mover->centre, enf_v3(2.0 * enf_cos(angle), 0.0, 2.0 * enf_sin(angle)));
+    return pose;
+}
+
+static void make_path(EnfTestRng *rng, Mover *mover, EnfPathMotion *path) {
+    path->rest = enf_pose_identity();
+    path->wrap = (EnfWrap)enf_test_below(rng, 3);
+    path->translation = (EnfTrack){(EnfPathKind)enf_test_below(rng, 2), KEYS, mover->times, mover->values};
+    EnfVec3 at = random_place(rng);
+    for (uint32_t k = 0; k < KEYS; k++) {
+        mover->times[k] = 2.0F * (float)k;
+        mover->values[3 * k] = (float)at.x;
+        mover->values[3 * k + 1] = (float)at.y;
+        mover->values[3 * k + 2] = (float)at.z;
+        at = enf_test_chance(rng, 3) ? random_place(rng) : enf_add(at, enf_v3(enf_test_double(rng, -2, 2), 0.0, 0.5));
+    }
+    path->seconds = 2.0 * (KEYS - 1);
+    path->period_ticks = 60 + enf_test_below(rng, 1200);
+}
+
+static EnfObjectDef random_object(EnfTestRng *rng, Mover *mover, int64_t tick) {
+    EnfObjectDef def = enf_object_def_default();
+    double size = enf_test_chance(rng, 20) ? enf_test_double(rng, 1.0, 40.0) : enf_test_double(rng, 0.001, 0.6);
+    def.local.min = enf_v3(-size, -0.5 * size, -size);
+    def.local.max = enf_v3(size, size, 0.5 * size);
+    mover->centre = random_place(rng);
+    mover->turn = enf_test_double(rng, 0.0, 6.0);
+    switch (enf_test_below(rng, 4)) {
+    case 0:
+        def.motion.kind = ENF_MOTION_PATH;
+        make_path(rng, mover, &def.motion.as.path);
+        def.motion.as.path.start_tick = tick;
+        break;
+    case 1:
+        def.motion.kind = ENF_MOTION_FREE;
+        def.motion.as.free.max_speed = 1.01;
+        def.motion.as.free.ask = on_circle;
+        def.motion.as.free.user = mover;
+        enf_free_push(&def.motion, tick, on_circle(mover, tick));
+        break;
+    case 2:
+        def.motion.kind = enf_test_chance(rng, 2) ? ENF_MOTION_HINGE : ENF_MOTION_SLIDE;
+        def.motion.as.swing.rest = enf_pose_identity();
+        def.motion.as.swing.rest.position = mover->centre;
+        def.motion.as.swing.pivot = enf_add(mover->centre, enf_v3(0.5, 0.0, 0.0));
+        def.motion.as.swing.axis = enf_v3(0.0, 1.0, 0.0);
+        def.motion.as.swing.high = 1.5;
+        def.motion.as.swing.rate = 2.0;
+        break;
+    default:
+        def.motion.as.still.position = mover->centre;
+        break;
+    }
+    return def;
+}
+
+static void spawn(Stage *stage, EnfTestRng *rng, uint32_t i) {
+    EnfObjectDef def = random_object(rng, &stage->movers[i], enf_world_tick(stage->world));
+    stage->movers[i].id = enf_world_add(stage->world, &def, NULL);
+    assert_int_not_equal(stage->movers[i].id.generation, 0);
+}
+
+/* A few events a tick: doors, teleports, deaths and births. */
+static void disturb(Stage *stage, EnfTestRng *rng) {
+    for (uint32_t e = enf_test_below(rng, 4); e > 0; e--) {
+        uint32_t i = enf_test_below(rng, OBJECTS);
+        Mover *mover = &stage->movers[i];
+        if (enf_test_chance(rng, 3)) {
+            EnfObjectId dead = mover->id;
+            assert_true(enf_world_remove(stage->world, dead));
+            assert_false(enf_world_alive(stage->world, dead));
+            spawn(stage, rng, i);
+        } else {
+            EnfObjectDef def = random_object(rng, mover, enf_world_tick(stage->world));
+            assert_true(enf_world_set_motion(stage->world, mover->id, &def.motion));
+            bool door = def.motion.kind == ENF_MOTION_HINGE || def.motion.kind == ENF_MOTION_SLIDE;
+            assert_true(!door || enf_world_swing(stage->world, mover->id, enf_test_double(rng, 0.0, 1.5)));
+        }
+    }
+}
+
+/* ---- the oracle ------------------------------------------------------------------------------------------------- */
+
+/* The pyramids of a frame's visits. */
+typedef struct Windows {
+    uint32_t cells[256], count;
+    EnfPyramid pyramids[256];
+} Windows;
+
+static void look(Stage *stage, const EnfView *view, Windows *windows) {
+    const EnfVisSet *set = enf_vis_run(stage->vis, &stage->portals, view);
+    const EnfMap *map = stage->rooms.map;
+    windows->count = 0;
+    for (uint32_t i = 0; i < set->visit_count && i < 256; i++) {
+        const EnfVisit *visit = &set->visits[i];
+        const EnfCell *c = &map->cells[visit->cell];
+        EnfBox3f bounds = {{c->min[0], c->min[1], c->min[2]}, {c->max[0], c->max[1], c->max[2]}};
+        enf_pyramid(&view->camera, visit->window, NULL, enf_v3(c->origin[0], c->origin[1], c->origin[2]), bounds,
+                    &windows->pyramids[i]);
+        windows->cells[windows->count++] = visit->cell;
+    }
+}
+
+static bool expected(Stage *stage, const Windows *windows, uint32_t object) {
+    EnfBox3f box = enf_world_box(stage->world, object);
+    for (uint32_t i = 0; i < windows->count; i++) {
+        if (enf_world_touches(stage->rooms.map, windows->cells[i], box) &&
+            enf_pyramid_box(&windows->pyramids[i], enf_world_box_in_cell(stage->rooms.map, windows->cells[i], box))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void check_frame(Stage *stage, const EnfView *view) {
+    Windows windows;
+    bool drawn[2 * OBJECTS];
+    look(stage, view, &windows);
+    uint32_t limit = enf_world_object_limit(stage->world);
+    assert_true(limit <= 2 * OBJECTS);
+    for (uint32_t object = 0; object < limit; object++) {
+        drawn[object] = enf_world_object(stage->world, object).generation != 0 && expected(stage, &windows, object);
+        stage->drawn += drawn[object] ? 1U : 0U;
+    }
+    for (uint32_t v = 0; v < VARIANTS; v++) {
+        EnfDbvIndex *index = stage->indices[v];
+        assert_int_equal(enf_dbv_begin(index, NULL), ENF_OK);
+        for (uint32_t i = 0; i < windows.count; i++) {
+            enf_dbv_see(index, windows.cells[i], &windows.pyramids[i]);
+        }
+        uint32_t count = 0;
+        const uint32_t *objects = enf_dbv_end(index, &count);
+        uint32_t k = 0;
+        for (uint32_t object = 0; object < limit; object++) {
+            bool listed = k < count && objects[k] == object;
+            k += listed ? 1U : 0U;
+            if (listed != drawn[object]) {
+                fail_msg("variant %u tick %lld: object %u is %s", v, (long long)enf_world_tick(stage->world), object,
+                         listed ? "listed and not visible" : "visible and not listed");
+            }
+        }
+        assert_int_equal(k, count);
+    }
+}
+
+/* ---- the tests -------------------------------------------------------------------------------------------------- */
+
+typedef enum Eye { EYE_STILL, EYE_WALKS, EYE_JUMPS } Eye;
+
+static void move_eye(Stage *stage, EnfTestRng *rng, Eye eye, int64_t tick, EnfView *view) {
+    EnfVec3 at = view->camera.eye_ws;
+    if (eye == EYE_JUMPS || tick == 0) {
+        at = enf_v3(enf_test_double(rng, 0.2, 29.8), 1.6, enf_test_double(rng, 0.2, 24.8));
+    } else if (eye == EYE_WALKS) {
+        double t = (double)tick / 400.0;
+        at = enf_v3(15.0 + 14.0 * enf_sin(t), 1.6, 12.5 + 11.0 * enf_cos(1.7 * t));
+    }
+    double yaw = eye == EYE_STILL ? 40.0 : enf_test_double(rng, 0.0, 4.0) + (double)tick;
+    view->camera = enf_camera(at, yaw, 0.0, 0.0, 75.0, 640, 480);
+    view->cell = enf_rooms_cell_at(&stage->rooms, at);
+}
+
+static void run(Eye eye, uint64_t stream, uint32_t ticks) {
+    Stage stage;
+    EnfTestRng rng = enf_test_rng(stream);
+    open_stage(&stage, enf_test_u64(&rng));
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        spawn(&stage, &rng, i);
+    }
+    EnfView view = enf_view_default();
+    for (uint32_t t = 0; t < ticks; t++) {
+        move_eye(&stage, &rng, eye, (int64_t)t, &view);
+        check_frame(&stage, &view);
+        enf_world_advance(stage.world, enf_test_chance(&rng, 50) ? (int64_t)enf_test_below(&rng, 100000) : 1);
+        disturb(&stage, &rng);
+    }
+    assert_true(stage.drawn > 0);
+    for (uint32_t v = 0; v < VARIANTS; v++) {
+        assert_int_equal(enf_dbv_total_counters(stage.indices[v]).late, 0);
+    }
+    close_stage(&stage);
+}
+
+static void test_a_still_eye(void **state) {
+    (void)state;
+    run(EYE_STILL, 1, enf_test_rounds(400, 20000));
+}
+
+static void test_a_walking_eye(void **state) {
+    (void)state;
+    run(EYE_WALKS, 2, enf_test_rounds(400, 20000));
+}
+
+static void test_a_jumping_eye(void **state) {
+    (void)state;
+    run(EYE_JUMPS, 3, enf_test_rounds(400, 20000));
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_a_still_eye),
+    cmocka_unit_test(test_a_walking_eye),
+    cmocka_unit_test(test_a_jumping_eye),
+};
+
+ENF_TEST_MAIN(tests)
