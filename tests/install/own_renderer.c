@@ -23,7 +23,8 @@ static void draw_line(const double a[2], const double b[2]) {
     for (int i = 0; i <= 400; i++) {
         double x = a[0] + (b[0] - a[0]) * i / 400, y = a[1] + (b[1] - a[1]) * i / 400;
         if (x >= 0 && y >= 0 && x < WIDTH && y < HEIGHT) {
-            picture[(int)y][(int)x] = 255;
+            unsigned char *dot = &picture[(int)y][(int)x];
+            *dot = (unsigned char)(*dot + (255 - *dot) / 8); /* the more lines, the brighter */
         }
     }
 }
