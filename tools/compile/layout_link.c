@@ -104,6 +104,11 @@ static bool is_flipped(EnfLayoutWork *work, const EnfOpening *opening) {
     if (seams > clear || seams < -clear) {
         return seams < 0.0;
     }
+    for (int i = 0; i < 2; i++) {
+        if (box_distance(patch->box, cell_box(work, i == 0 ? opening->source : opening->target)) > ENF_ROOM_REACH) {
+            return false; /* rays from afar tell nothing: taken as given, and warned of as too far */
+        }
+    }
     EnfVec3 ahead = patch->normal, behind = enf_scale(ahead, -1.0);
     int source = enf_layout_side(work, opening->source, patch->centre, ahead) -
                  enf_layout_side(work, opening->source, patch->centre, behind);
