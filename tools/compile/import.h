@@ -91,6 +91,8 @@ EnfResult enf_import_indices(EnfImport *import, uint32_t accessor, uint32_t *out
 uint8_t *enf_image_decode(EnfImportBytes bytes, uint32_t *width, uint32_t *height, const char **reason);
 bool enf_image_size(EnfImportBytes bytes, uint32_t *width, uint32_t *height, const char **reason);
 void enf_image_free(uint8_t *pixels);
+/* image_jpeg.c: may stb_image see this? Anything that is no JPEG may. */
+bool enf_jpeg_is_safe(EnfImportBytes bytes);
 
 /* The stages, in this order. */
 EnfResult enf_import_nodes(EnfImport *import);     /* import_node.c */
