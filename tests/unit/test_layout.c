@@ -5,7 +5,7 @@
 #include "compile/names.h"
 #include "harness/level.h"
 
-#include <cJSON.h>
+#include <cjson/cJSON.h>
 
 typedef struct Built {
     EnfLayout layout;
