@@ -168,7 +168,7 @@ typedef enum PortalKind {
     PORTAL_NEAR,      /* a vertex, an edge or the inside near the eye */
     PORTAL_EDGE_ON,   /* the eye in or nearly in its plane */
     PORTAL_SLIVER,    /* of no width to speak of */
-    PORTAL_FAR,       /* 100 km away; or 10^5 km large, and near */
+    PORTAL_FAR,       /* 100 km away; or 10,000 km large, and near */
     PORTAL_DOUBLED,   /* vertices that coincide or lie on a line */
     PORTAL_EYE_PLANE, /* vertices at the depth where portals are cut */
     PORTAL_GRID,      /* on the compiler's grid, parallel to the axes */
@@ -288,7 +288,7 @@ static inline Portal any_portal(EnfTestRng *rng, const EnfCamera *camera, Portal
     case PORTAL_FAR: {
         /* once in four a wall of a thousand kilometres and more that passes close by: the pad alone is too small for it */
         bool vast = enf_test_chance(rng, 4);
-        double least = vast ? 6.0 : 0.0, most = vast ? 8.0 : 5.0;
+        double least = vast ? 6.0 : 0.0, most = vast ? 7.0 : 5.0;
         EnfVec3 middle = any_vector(rng, vast ? any_size(rng, -1.5, 0.0) : any_size(rng, 2.0, 5.0));
         EnfVec3 u = any_vector(rng, any_size(rng, least, most));
         return ellipse_portal(rng, middle, u, any_vector(rng, any_size(rng, least, most)));

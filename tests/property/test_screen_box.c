@@ -80,6 +80,20 @@ static void measure(const EnfCamera *camera, const Portal *portal, EnfWindow par
     }
 }
 
+/* How much nearer than it is a polygon may seem: the rounding of the frame, and of a sliver's normal (which grows with
+ * its size over its width; it may only pass more). */
+static double granted(const EnfCamera *camera, const Portal *portal) {
+    double size = 0.0;
+    EnfVec3 normal = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < portal->count; i++) {
+        EnfVec3 a = enf_sub(portal->points[i], portal->points[0]);
+        normal = enf_add(normal, enf_cross(a, enf_sub(portal->points[(i + 1) % portal->count], portal->points[0])));
+        size = fmax(size, enf_length(portal->points[i]));
+    }
+    double slimness = size * size / fmax(enf_length(normal), DBL_MIN);
+    return 1e-6 + 0x1p-44 * size * (1.0 + camera->tan_x + camera->tan_y) + 0x1p-48 * size * slimness;
+}
+
 static void check_portal(const EnfCamera *camera, const Portal *portal, EnfWindow parent, Counts *counts) {
     Quad range[4] = {quad(0.0), quad(0.0), quad(0.0), quad(0.0)};
     bool seen = exact_range(camera, portal, parent, range);
@@ -91,11 +105,7 @@ static void check_portal(const EnfCamera *camera, const Portal *portal, EnfWindo
         right = right && enf_window_is_empty(out) && (!seen || touches_only(parent, range));
     } else if (what == ENF_PROJECT_PARENT) {
         counts->parents++;
-        double size = 0.0; /* a rounding of the vertices' frame more is granted */
-        for (uint32_t i = 0; i < portal->count; i++) {
-            size = fmax(size, enf_length(portal->points[i]));
-        }
-        Quad reach = quad(ENF_TOL_PORTAL_EYE + 1e-6 + 0x1p-44 * size * (1.0 + camera->tan_x + camera->tan_y));
+        Quad reach = quad(ENF_TOL_PORTAL_EYE + granted(camera, portal));
         right = enf_window_contains(out, parent) && exact_distance2(portal->points, portal->count) <= reach * reach;
     } else {
         counts->windows++;
