@@ -1,0 +1,128 @@
+/* enfinfo as it is called: what it prints about a map, its exit statuses, and its answers to "why". */
+#include "harness/harness.h"
+#include "scenes/rooms.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Runs enfinfo with `arguments`; its output and errors, to be freed, in *text. */
+static int run(const char *arguments, char **text) {
+    char command[2048];
+    const char *out = enf_test_temp_path("out.txt");
+    snprintf(command, sizeof command, "%s/enfinfo %s > %s 2>&1", ENF_BIN_DIR, arguments, out);
+    int status = enf_test_shell(command);
+    size_t size;
+    *text = (char *)enf_test_read_file(out, &size);
+    return status;
+}
+
+static void expect(const char *arguments, int status, const char *const *parts) {
+    char *text;
+    int got = run(arguments, &text);
+    if (got != status) {
+        fail_msg("enfinfo %s: status %d instead of %d:\n%s", arguments, got, status, text);
+    }
+    for (; *parts; parts++) {
+        if (!strstr(text, *parts)) {
+            fail_msg("enfinfo %s: no \"%s\" in:\n%s", arguments, *parts, text);
+        }
+    }
+    free(text);
+}
+
+#define EXPECT(arguments, status, ...) expect(arguments, status, (const char *const[]){__VA_ARGS__, NULL})
+
+/* Three rooms in a row along x, their doors in line; room 0 from 0 to 5. */
+static const char *rooms_map(void) {
+    static char path[1024];
+    EnfRooms rooms;
+    EnfRoomsDef def = enf_rooms_def_default();
+    EnfError error = {0};
+    def.nx = 3;
+    def.nz = 1;
+    def.door_width = 4.5;
+    snprintf(path, sizeof path, "%s", enf_test_temp_path("rooms.enfmap"));
+    if (!enf_rooms_create(&rooms, &def, &error) || enf_map_write(rooms.map, path, &error)) {
+        fail_msg("%s", error.message);
+    }
+    enf_rooms_destroy(&rooms);
+    return path;
+}
+
+static const char *with(const char *format, const char *path) {
+    static char text[2048];
+    char *to = text;
+    for (; *format && to < text + 1000; format++) {
+        if (*format == '@') {
+            to += sprintf(to, "%s", path);
+        } else {
+            *to++ = *format;
+        }
+    }
+    *to = '\0';
+    return text;
+}
+
+static void test_lists(void **state) {
+    (void)state;
+    const char *map = rooms_map();
+    EXPECT(with("@", map), 0, "Enfilade map, version 1", "cells      3", "4 half-portals: 2 pairs", "room_2_0-room", "VERT");
+    EXPECT(with("@ --cells", map), 0, "room_0_0-room", "5.0 × 3.0 × 5.0");
+    EXPECT(with("@ --portals", map), 0, "door-portal", "room_1_0-room", "9.00");
+    EXPECT(with("@ --materials --lights --entities", map), 0, "plaster", "lamp", "info_player_start");
+    EXPECT(with("@ --json", map), 0, "\"cell_count\": 3", "\"portals\": [", "\"name\": \"room_1_0-room\"");
+    EXPECT(with("@ --check", map), 0, "OK: 3 cells, 4 portals");
+}
+
+static void test_command_line(void **state) {
+    (void)state;
+    const char *map = rooms_map();
+    EXPECT("--help", 0, "usage: enfinfo", "--check");
+    EXPECT("--version", 0, "enfinfo ");
+    EXPECT("", 2, "which map?");
+    EXPECT("a b", 2, "one map at a time");
+    EXPECT(with("why @", map), 2, "--eye X,Y,Z and --cell");
+    EXPECT(with("@ --cell x", map), 2, "belong to 'why'");
+    EXPECT(with("@ --nonsense", map), 2, "--nonsense");
+    EXPECT(with("why @ --eye 1,1,1 --cell nowhere", map), 2, "no cell 'nowhere'");
+}
+
+static void test_unsound(void **state) {
+    (void)state;
+    const char *map = rooms_map();
+    size_t size;
+    uint8_t *bytes = enf_test_read_file(map, &size);
+    const char *damaged = enf_test_temp_path("damaged.enfmap");
+    bytes[size / 2] ^= 1;
+    enf_test_write_file(damaged, bytes, size);
+    EXPECT(with("@ --check", damaged), 1, "damaged.enfmap: at byte ", "chunk ", "checksum");
+    enf_test_write_file(damaged, bytes, size / 2);
+    EXPECT(with("@", damaged), 1, "file_size");
+    EXPECT("absent.enfmap", 1, "absent.enfmap");
+    free(bytes);
+}
+
+static void test_why(void **state) {
+    (void)state;
+    const char *map = rooms_map();
+    const char *seen = "why @ --eye 2.5,1.5,2.5 --yaw -90 --cell room_2_0";
+    EXPECT(with(seen, map), 0, "in \"room_0_0-room\"", "is seen, through 2 portals", "the eye is here", "100.0 %",
+           "door-portal");
+    EXPECT(with("@ why --eye 2.5,1.5,2.5 --yaw -90 --cell room_2_0 --window polygon", map), 0, "through 2 portals");
+    EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw -90 --cell room_0_0", map), 0, "through 0 portals");
+    EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw 90 --cell room_2_0", map), 1, "is hidden", "room_0_0-room → room_1_0-room",
+           "behind the eye", "then 1 more");
+    EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw 0 --cell room_1_0", map), 1, "outside the picture", "to the right");
+    EXPECT(with("why @ --eye -50,1.5,2.5 --yaw 90 --cell room_1_0", map), 1, "in no cell", "frustum");
+    EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw 90 --from room_1_0 --cell room_0_0", map), 0, "is seen");
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_lists),
+    cmocka_unit_test(test_command_line),
+    cmocka_unit_test(test_unsound),
+    cmocka_unit_test(test_why),
+};
+
+ENF_TEST_MAIN(tests)
