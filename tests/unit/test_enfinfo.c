@@ -115,7 +115,7 @@ static void test_why(void **state) {
            "behind the eye", "then 1 more");
     EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw 0 --cell room_1_0", map), 1, "outside the picture", "to the right");
     EXPECT(with("why @ --eye -50,1.5,2.5 --yaw 90 --cell room_1_0", map), 1, "in no cell", "frustum");
-    EXPECT(with("why @ --eye 2.5,1.5,2.5 --yaw 90 --from room_1_0 --cell room_0_0", map), 0, "is seen");
+    EXPECT(with("why @ --eye 7.5,1.5,2.5 --yaw 90 --from room_1_0 --cell room_0_0", map), 0, "is seen");
 }
 
 static const struct CMUnitTest tests[] = {
