@@ -158,6 +158,25 @@ static void unreadable_images_are_white(void **state) {
     }
 }
 
+/* stb_image 2.27 writes behind its tables when the counts of a Huffman table add up to more than 256. */
+static void overlong_huffman_tables_are_refused(void **state) {
+    (void)state;
+    uint8_t jpeg[400] = {0xFF, 0xD8, 0xFF, 0xC4, 0x01, 0x13, 0x00}; /* a segment of 275 bytes: 17 + 256 */
+    EnfImportBytes bytes = {jpeg, sizeof jpeg};
+    memset(jpeg + 7, 16, 16);
+    assert_true(enf_jpeg_is_safe(bytes));
+    jpeg[7] = 17;
+    assert_false(enf_jpeg_is_safe(bytes));
+    jpeg[7] = 16;
+    bytes.size = 200; /* the tables are cut off */
+    assert_false(enf_jpeg_is_safe(bytes));
+    uint32_t width, height;
+    const char *reason;
+    jpeg[7] = 255;
+    assert_false(enf_image_size((EnfImportBytes){jpeg, sizeof jpeg}, &width, &height, &reason));
+    assert_string_equal(reason, "a JPEG with malformed tables");
+}
+
 /* ---- uris ------------------------------------------------------------------------------------------------------- */
 
 static EnfTestImport import_uri(const char *uri) {
@@ -378,6 +397,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(material_names_mean_something),
     cmocka_unit_test(specular_glossiness_gives_a_base_colour),
     cmocka_unit_test(unreadable_images_are_white),
+    cmocka_unit_test(overlong_huffman_tables_are_refused),
     cmocka_unit_test(files_inside_are_read),
     cmocka_unit_test(files_outside_are_refused),
     cmocka_unit_test(images_outside_are_refused),
