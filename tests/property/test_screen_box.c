@@ -1,9 +1,9 @@
 /* Windows of portals against 113-bit arithmetic: a million random and hostile portals a run, none of whose visible points
  * may lie outside their window; and how loose the windows are.
  *
- * Each remedy was taken out once to see this suite fail: the clip at the eye plane (vertices behind projected, or
- * dropped), the pad and the outward rounding, the outward move of the clipping sides, the fallback for what is not
- * finite. tests/property/test_portal_eye.c does the same for the eye near a portal. */
+ * Taken out one at a time, each of these made the suite fail: the clip before the divide, rounding outward, the outward
+ * move of the clipping sides, the fallback for what is not finite or too coarse; and the pad together with the error bound
+ * (either alone still contains everything here). test_portal_eye.c does the same for the eye near a portal. */
 #include "harness/exact_view.h"
 
 #include <stdio.h>
