@@ -19,7 +19,7 @@ typedef struct EnfDbvLink {
     uint32_t place, next, previous;
 } EnfDbvLink;
 
-/** A volume: 120 bytes, two cache lines mostly. */
+/** A volume: 128 bytes, two cache lines. */
 typedef struct EnfDbvVolume {
     EnfBox3f box; /**< world */
     uint32_t wheel_next, wheel_previous;
@@ -28,7 +28,7 @@ typedef struct EnfDbvVolume {
     uint32_t bad_period;    /**< OPTIMAL: the shortest that was seen; 0: none yet */
     uint32_t exposed_frame; /**< the frame that exposed it last */
     uint32_t exposure;      /**< and its exposure there */
-    uint16_t wheel_slot;    /**< ENF_DBV_NO_SLOT: not in the queue */
+    uint32_t wheel_slot;    /**< ENF_NONE: not in the queue */
     uint8_t link_count;
     bool alive;
     EnfDbvLink links[ENF_DBV_LINKS];
@@ -47,18 +47,13 @@ typedef struct EnfDbvPlaces {
     uint32_t *hot_frame; /**< a place that is or holds a seen cell: the frame that saw it */
 } EnfDbvPlaces;
 
-/** The wheel: four levels of 256 slots; level l turns once in 256^(l+1) ticks (Varghese & Lauck 1987). */
-enum {
-    ENF_DBV_LEVELS = 4,
-    ENF_DBV_SLOTS = 256,
-    ENF_DBV_WAITING = ENF_DBV_LEVELS * ENF_DBV_SLOTS, /* a last slot: beyond the last level's turn */
-    ENF_DBV_NO_SLOT = 0xffff
-};
+/** The wheel: a slot a tick, 18 minutes a turn. */
+enum { ENF_DBV_SLOTS = 65536 };
 
 typedef struct EnfDbvWheel {
     int64_t now; /**< everything due at or before it has been taken out */
-    uint32_t heads[ENF_DBV_WAITING + 1];
-    uint64_t occupied[ENF_DBV_LEVELS][ENF_DBV_SLOTS / 64];
+    uint32_t heads[ENF_DBV_SLOTS];
+    uint64_t occupied[ENF_DBV_SLOTS / 64];
 } EnfDbvWheel;
 
 /** An object seen in this frame. */

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-_Static_assert(sizeof(EnfDbvVolume) <= 120, "with the lists of a frame an object costs at most 160 bytes");
+_Static_assert(sizeof(EnfDbvVolume) <= 128, "with the lists of a frame an object costs at most 160 bytes");
 
 EnfDbvDef enf_dbv_def_default(void) {
     EnfDbvDef def = {ENF_DBV_MAXIMAL, ENF_DBV_LCA, 64, 1U << 30};
@@ -88,7 +88,7 @@ bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count) {
     }
     index->volumes = volumes;
     for (; index->volume_count < count; index->volume_count++) {
-        index->volumes[index->volume_count].wheel_slot = ENF_DBV_NO_SLOT;
+        index->volumes[index->volume_count].wheel_slot = ENF_NONE;
     }
     return true;
 }
