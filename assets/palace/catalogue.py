@@ -40,17 +40,21 @@ VARIANTS = {
     "great_rug": lambda material: ornaments.carpet(material, 3.5, 5.0),
     "runner": lambda material: ornaments.runner(material, 1.6, 5),
     "column": lambda size: fittings.column(*_column_size(size)),
-    "pillar": lambda height: fittings.pillar(float(height.replace("_", "."))),
-    "pilaster": lambda height: fittings.pilaster(float(height.replace("_", "."))),
+    "pillar": lambda millimetres: fittings.pillar(int(millimetres) / 1000),
+    "pilaster": lambda millimetres: fittings.pilaster(int(millimetres) / 1000),
     "balustrade": lambda millimetres: fittings.balustrade(int(millimetres) / 1000),
     "coffer": lambda size: fittings.coffer(*_coffer_size(size)),
 }
 
 
 def build(name):
-    """Mesh data of a piece: `chair.cloth_red`, `picture.7`, `column.4_5x0_28`."""
+    """Mesh data of a piece: `chair.cloth_red`, `picture.7`, `column.4.500x0.280xmarble_white`."""
     plain, _, variant = name.partition(".")
     return VARIANTS[plain](variant) if variant else PLAIN[plain]()
+
+
+def pillar_name(height):
+    return f"pillar.{round(height * 1000)}"
 
 
 def column_name(height, radius, stone="marble_rose_plain"):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the exported palace: assets/palace/check.py [palace.glb] [tour.csv].  Plain Python, no Blender.
 
-Rooms enough, triangles enough, a file small enough; every portal planar, convex and facing out of its room; every cell
+Rooms enough, triangles enough, a file small enough; every piece inside its room and off the walk; every portal planar, convex and facing out of its room; every cell
 closed: each edge of shell and portals, on a grid of 1/4096 m, is run through as often one way as the other.
 """
 
@@ -15,11 +15,15 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
-from geometry import cross, dot, newell, scale, sub, unit  # noqa: E402
+import plan  # noqa: E402
+from geometry import cross, depth_inside, dot, newell, scale, sub, unit  # noqa: E402
 from glb import Glb  # noqa: E402
+from openings import WELLS  # noqa: E402
 
 GRID = 4096
 PLANAR = 2.0 / GRID  # corners are snapped, so an oblique portal may leave its plane by about one step of the grid
+SLACK = 0.001
+SHOULDER = 0.25
 MOST_BYTES, FEWEST_ROOMS, FEWEST_TRIANGLES = 12 * 1024 * 1024, 60, 300_000
 
 
@@ -33,6 +37,7 @@ def main():
     rooms = {node["name"][:-5]: i for i, node in enumerate(glb.nodes) if node["name"].endswith("-room")}
     portals = read_portals(glb, rooms)
     problems = check_sizes(glb, rooms) + check_portals(glb, rooms, portals) + check_closed(glb, rooms, portals)
+    problems += check_pieces(glb, tour)
     problems += check_lights(glb, rooms) + check_spawn(glb) + check_tour(tour)
     for problem in problems:
         print("FAIL:", problem)
@@ -147,6 +152,47 @@ def count_edges(edges, points):
             edges[p, q] += 1
         elif q < p:
             edges[q, p] -= 1
+
+
+def check_pieces(glb, tour):
+    """Every piece stands inside its room and out of the walker's way."""
+    problems, near = [], {}
+    plans = {room.name: room for room in plan.rooms() if not room.section}
+    wells = {end for well in WELLS for end in (well.lower, well.upper)}
+    for name, corners in pieces(glb):
+        room = plans.get(name.split("_")[0])
+        if room is None:
+            continue
+        margin = -0.25 if "balustrade" in name or "stair" in name else 0.0
+        top = room.ceiling + (0.5 if room.name in wells else 0.0)
+        for x, y, z in corners:
+            if depth_inside(room.footprint, (x, y)) < margin or not room.floor - SLACK <= z <= top + SLACK:
+                problems.append(f"{name}: reaches out of its room at {(x, y, z)}")
+                break
+        for x, y, z in corners:
+            near.setdefault((math.floor(x), math.floor(y)), []).append((x, y, z, name))
+    return problems + check_way(tour, near)
+
+
+def pieces(glb):
+    """(name, corners in the blender-like frame x east, y north, z up) of every mesh that is no shell, moulding or portal."""
+    for i, node in enumerate(glb.nodes):
+        if "mesh" in node and not re.search(r"(_shell|_trim|-portal)$", node["name"]):
+            corners = {p for triangle in glb.triangles_of(node["mesh"]) for p in triangle}
+            yield node["name"], [(x, -z, y) for x, y, z in (glb.to_world(i, p) for p in corners)]
+
+
+def check_way(tour, near):
+    """No corner of a piece between knee and eye comes nearer than a shoulder's width to the walker."""
+    met = {}
+    for row in csv.DictReader(open(tour, encoding="ascii")):
+        x, y, eye = float(row["x"]), -float(row["z"]), float(row["y"])
+        for i in (-1, 0, 1):
+            for j in (-1, 0, 1):
+                for px, py, pz, name in near.get((math.floor(x) + i, math.floor(y) + j), ()):
+                    if eye - 1.2 < pz < eye + 0.1 and math.hypot(px - x, py - y) < SHOULDER:
+                        met.setdefault(name, (round(x, 2), round(y, 2)))
+    return [f"{name}: in the walker's way at {at}" for name, at in sorted(met.items())]
 
 
 def check_lights(glb, rooms):

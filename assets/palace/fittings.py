@@ -10,7 +10,7 @@ BALUSTER = [(0.055, 0.0), (0.055, 0.06), (0.035, 0.1), (0.068, 0.27), (0.026, 0.
 RAIL_HEIGHT = 0.95
 
 
-def column(height=4.0, radius=0.28, stone="marble_rose_plain", flutes=14):
+def column(height=4.0, radius=0.28, stone="marble_rose_plain", flutes=12):
     """A fluted column with Attic base and a bell capital."""
     base = joined(prism([(-1.35 * radius, -1.35 * radius), (1.35 * radius, -1.35 * radius), (1.35 * radius, 1.35 * radius), (-1.35 * radius, 1.35 * radius)], 0, 0.12, stone),
                   lathe([(1.32 * radius, 0.12), (1.35 * radius, 0.17), (1.15 * radius, 0.25), (1.02 * radius, 0.34)], stone, flutes))
@@ -88,9 +88,9 @@ def fireplace(stone="marble_white"):
     body.append(box((-0.95, 0.008, 1.05), (0.95, 0.3, 1.28), stone)).append(box((-0.35, 0.3, 1.09), (0.35, 0.32, 1.24), "marble_dark")).append(box((-1.03, 0.008, 1.28), (1.03, 0.38, 1.35), stone))
     body.append(box((-0.67, 0.012, 0), (0.67, 0.02, 1.05), "soot")).append(box((-1.0, 0.32, 0), (1.0, 0.8, 0.03), "marble_dark")).append(box((-0.67, 0.02, 0), (0.67, 0.32, 0.04), "soot"))
     for k in range(4):
-        body.append(tube([(-0.35 + 0.05 * k, 0.1 + 0.05 * k, 0.1 + 0.05 * (k % 2)), (0.35 - 0.04 * k, 0.2 - 0.03 * k, 0.12 + 0.05 * (k % 2))], 0.05, "wood_dark", 5))
+        body.append(tube([(-0.35 + 0.05 * k, 0.1 + 0.05 * k, 0.1 + 0.05 * (k % 2)), (0.35 - 0.04 * k, 0.2 - 0.03 * k, 0.12 + 0.05 * (k % 2))], 0.05, "wood_dark", 4))
     for k in range(5):
-        body.append(lathe([(0.06, 0.0), (0.07, 0.08), (0.03, 0.2), (0.0, 0.34)], "flame" if k % 2 else "ember", 6), (-0.24 + 0.12 * k, 0.15, 0.14), 0, (1, 0.6, 0.8 + 0.25 * (k % 3)))
+        body.append(lathe([(0.06, 0.0), (0.06, 0.1), (0.0, 0.34)], "flame" if k % 2 else "ember", 5), (-0.24 + 0.12 * k, 0.15, 0.14), 0, (1, 0.6, 0.8 + 0.25 * (k % 3)))
     body.append(candlestick(), (-0.75, 0.2, 1.351)).append(candlestick(), (0.75, 0.2, 1.351))
     return body
 
@@ -112,9 +112,9 @@ def coffer(width, depth, wood="plaster", rosette=True):
 
 def rose():
     """A stuccoed ceiling rose about z = 0."""
-    body = lathe([(0.1, -0.06), (0.2, -0.05), (0.24, -0.07), (0.3, -0.03), (0.5, -0.025), (0.56, -0.06), (0.7, -0.006)], "plaster", 18, smooth=False)
-    for k in range(10):
-        a = math.pi / 5 * k
+    body = lathe([(0.1, -0.06), (0.2, -0.05), (0.24, -0.07), (0.5, -0.025), (0.56, -0.06), (0.7, -0.006)], "plaster", 16, smooth=False)
+    for k in range(8):
+        a = math.pi / 4 * k
         body.append(tube([(0.3 * math.cos(a), 0.3 * math.sin(a), -0.035), (0.42 * math.cos(a + 0.1), 0.42 * math.sin(a + 0.1), -0.06), (0.52 * math.cos(a), 0.52 * math.sin(a), -0.03)], [0.01, 0.03, 0.01], "gold", 3))
     return body
 

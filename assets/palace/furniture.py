@@ -27,7 +27,7 @@ def four(part, x, y):
     return mesh
 
 
-def leg(height, material, thick=1.0, sides=6):
+def leg(height, material, thick=1.0, sides=5):
     return lathe([(r * thick, z * height / 0.42) for r, z in LEG], material, sides)
 
 
@@ -46,7 +46,7 @@ def cushion(width, depth, low, high, material, bulge=0.03):
 def chair(cloth, wood="wood_dark"):
     back = Mesh()
     for x in (-0.2, 0.2):
-        back.append(tube([(x, -0.2, 0.0), (x, -0.19, 0.44), (x, -0.27, 1.02)], [0.022, 0.024, 0.018], wood, 4))
+        back.append(tube([(x, -0.2, 0.0), (x, -0.19, 0.44), (x, -0.27, 1.02)], [0.024, 0.026, 0.02], wood, 4))
     back.append(_leaning(0.36, 0.5, 0.95, cloth)).append(block((0.44, 0.035, 0.07), wood, (0.0, -0.262, 0.95)))
     legs = Mesh().append(leg(0.42, wood), (-0.2, 0.2, 0)).append(leg(0.42, wood), (0.2, 0.2, 0))
     rails = joined(block((0.4, 0.03, 0.05), wood, (0, 0.2, 0.37)), block((0.03, 0.4, 0.05), wood, (-0.2, 0, 0.37)),
@@ -74,7 +74,7 @@ def _leaning(width, low, high, cloth):
 def armchair(cloth, wood="gold"):
     arms = Mesh()
     for x in (-0.31, 0.31):
-        arms.append(tube([(x, -0.28, 0.62), (x, 0.1, 0.66), (x, 0.25, 0.6), (x, 0.27, 0.4)], 0.025, wood, 4))
+        arms.append(tube([(x, -0.28, 0.62), (x, 0.1, 0.66), (x, 0.25, 0.6), (x, 0.27, 0.4)], 0.028, wood, 3))
     back = joined(block((0.6, 0.1, 0.6), cloth, (0, -0.3, 0.42)), block((0.68, 0.06, 0.08), wood, (0, -0.3, 1.02)))
     for x in (-0.33, 0.33):
         back.append(block((0.05, 0.08, 0.62), wood, (x, -0.3, 0.4)))
@@ -267,8 +267,8 @@ def _books(z, height, seed):
         x1, u = min(x + wide, 0.555), (i * 0.137) % 0.8
         mesh.face([(x1, deep, z), (x, deep, z), (x, deep, top), (x1, deep, top)], "books", [(u + x1 - x, 0.02), (u, 0.02), (u, 0.76), (u + x1 - x, 0.76)])
         mesh.face([(x, 0.04, top), (x1, 0.04, top), (x1, deep, top), (x, deep, top)], "cloth_white")
-        mesh.face([(x, deep, z), (x, 0.04, z), (x, 0.04, top), (x, deep, top)], "leather")
-        mesh.face([(x1, 0.04, z), (x1, deep, z), (x1, deep, top), (x1, 0.04, top)], "leather")
+        if i % 4 == 3:
+            mesh.face([(x1, 0.04, z), (x1, deep, z), (x1, deep, top), (x1, 0.04, top)], "leather")
         x, i = x1 + (0.05 if i % 4 == 3 else 0.003), i + 1
     return mesh
 
@@ -301,7 +301,7 @@ def cabinet():
             body.append(box((-0.56, 0.03, z - 0.02), (0.56, 0.34, z), "wood_dark"))
         for i, x in enumerate((-0.4, -0.13, 0.14, 0.41)):
             jar = [(0.05, 0.0), (0.1, 0.14), (0.05, 0.24), (0.06, 0.28)] if (i + k) % 2 else [(0.03, 0.0), (0.1, 0.11), (0.11, 0.13)]
-            body.append(lathe(jar, "porcelain" if (i + 2 * k) % 3 else "cobalt", 8), (x, 0.2, z + 0.001))
+            body.append(lathe(jar, "porcelain" if (i + 2 * k) % 3 else "cobalt", 6), (x, 0.2, z + 0.001))
     return body
 
 
@@ -310,14 +310,14 @@ def shelves():
     body = joined(*[box((x - 0.03, 0.01, 0), (x + 0.03, 0.4, 1.95), "wood_light") for x in (-0.8, 0.8)])
     for k, z in enumerate((0.3, 1.0, 1.7)):
         body.append(box((-0.77, 0.01, z), (0.77, 0.42, z + 0.03), "wood_light"))
-        for i in range(5):
-            x, tone = -0.6 + 0.3 * i, ("terracotta", "porcelain", "brass", "terracotta")[(i + k) % 4]
-            body.append(lathe([(0.07, 0.0), (0.1, 0.15), (0.05, 0.27), (0.06, 0.3)], tone, 7), (x, 0.2, z + 0.031), 0, (1, 1, 0.7 + 0.1 * ((i * 3 + k) % 4)))
+        for i in range(4):
+            x, tone = -0.6 + 0.4 * i, ("terracotta", "porcelain", "brass", "terracotta")[(i + k) % 4]
+            body.append(lathe([(0.07, 0.0), (0.1, 0.15), (0.05, 0.27), (0.06, 0.3)], tone, 6), (x, 0.2, z + 0.031), 0, (1, 1, 0.7 + 0.1 * ((i * 3 + k) % 4)))
     return body
 
 
 def barrel():
-    profile = [(0.0, 0.04), (0.3, 0.04), (0.31, 0.0), (0.36, 0.2), (0.38, 0.45), (0.36, 0.7), (0.31, 0.9), (0.3, 0.86), (0.0, 0.86)]
+    profile = [(0.31, 0.0), (0.36, 0.2), (0.38, 0.45), (0.36, 0.7), (0.31, 0.9), (0.3, 0.86), (0.0, 0.86)]
     body = lathe(profile, "wood_light", 12, smooth=False)
     for z, r in ((0.1, 0.343), (0.24, 0.372), (0.62, 0.376), (0.78, 0.349)):
         body.append(lathe([(r, z - 0.025), (r + 0.004, z + 0.025)], "iron", 12))

@@ -14,6 +14,7 @@ class Glb:
         assert (magic, version, size) == (b"glTF", 2, len(data)), "not a whole binary glTF 2.0 file"
         json_size = struct.unpack_from("<I", data, 12)[0]
         self.size = size
+        self.kept = {}
         self.json = json.loads(data[20:20 + json_size])
         self.binary = data[20 + json_size + 8:]
         self.nodes = self.json["nodes"]
@@ -36,6 +37,12 @@ class Glb:
             indices = [row[0] for row in self.accessor(primitive["indices"])]
             for i in range(0, len(indices), 3):
                 yield tuple(points[j] for j in indices[i:i + 3])
+
+    def triangles_of(self, mesh):
+        """The same as a list, kept for meshes that many nodes share."""
+        if mesh not in self.kept:
+            self.kept[mesh] = list(self.triangles(mesh))
+        return self.kept[mesh]
 
     def triangle_count(self, mesh):
         accessors = self.json["accessors"]

@@ -13,19 +13,18 @@ FLAME = [(0.0, 0.0), (0.012, 0.018), (0.0, 0.06)]
 
 
 def candle(at=(0.0, 0.0, 0.0)):
-    lit = joined(lathe(CANDLE, "wax", 5), Mesh().append(lathe(FLAME, "flame", 4), (0, 0, 0.13)))
+    lit = joined(lathe(CANDLE, "wax", 4), Mesh().append(lathe(FLAME, "flame", 4), (0, 0, 0.13)))
     return Mesh().append(lit, at)
 
 
 def candlestick():
-    profile = [(0.085, 0.0), (0.09, 0.012), (0.05, 0.03), (0.02, 0.05), (0.03, 0.08), (0.014, 0.12), (0.014, 0.2),
-               (0.028, 0.23), (0.016, 0.25), (0.045, 0.285), (0.0, 0.29)]
-    return lathe(profile, "brass", 8).append(candle((0, 0, 0.29)))
+    profile = [(0.09, 0.0), (0.05, 0.03), (0.02, 0.05), (0.03, 0.08), (0.014, 0.13), (0.016, 0.24), (0.045, 0.285), (0.0, 0.29)]
+    return lathe(profile, "brass", 6).append(candle((0, 0, 0.29)))
 
 
 def candelabrum():
     """A standing candelabrum of five lights."""
-    body = lathe([(0.2, 0.0), (0.21, 0.03), (0.08, 0.09), (0.04, 0.16), (0.06, 0.3), (0.025, 0.4), (0.025, 1.1), (0.05, 1.16), (0.03, 1.25), (0.05, 1.4), (0.0, 1.43)], "gold", 8)
+    body = lathe([(0.2, 0.0), (0.08, 0.09), (0.04, 0.16), (0.06, 0.3), (0.025, 0.4), (0.025, 1.1), (0.05, 1.16), (0.05, 1.4), (0.0, 1.43)], "gold", 7)
     body.append(candle((0, 0, 1.43)))
     for k in range(4):
         turn = math.pi / 2 * k
@@ -36,8 +35,8 @@ def candelabrum():
 def _arm(reach, z, rise, material="gold"):
     """A curved arm with a candle at its end."""
     path = [(0.0, 0.0, z), (reach * 0.4, 0, z - rise * 0.6), (reach * 0.8, 0, z - rise * 0.3), (reach, 0, z + rise)]
-    cup = lathe([(0.012, 0.0), (0.045, 0.03), (0.0, 0.033)], material, 6)
-    return joined(tube(path, [0.016, 0.014, 0.012, 0.01], material, 4), Mesh().append(cup, (reach, 0, z + rise)), candle((reach, 0, z + rise + 0.03)))
+    cup = lathe([(0.012, 0.0), (0.045, 0.03), (0.0, 0.033)], material, 5)
+    return joined(tube(path, [0.017, 0.015, 0.013, 0.01], material, 3), Mesh().append(cup, (reach, 0, z + rise)), candle((reach, 0, z + rise + 0.03)))
 
 
 def chandelier(arms=8, reach=0.55, tiers=1, drops=True):
@@ -51,8 +50,8 @@ def chandelier(arms=8, reach=0.55, tiers=1, drops=True):
             if drops:
                 body.append(_pendant(), (size * math.cos(turn), size * math.sin(turn), z + 0.09))
     if drops:
-        for k in range(8):
-            body.append(_string(reach * 0.95, -1.04, 0.05, -0.62), turn=2 * math.pi * k / 8)
+        for k in range(arms):
+            body.append(_string(reach * 0.95, -1.04, 0.05, -0.62), turn=2 * math.pi * k / arms)
         body.append(_pendant(), (0, 0, -1.35), 0, (1.6, 1.6, 1.6))
     return body
 
@@ -64,8 +63,8 @@ def _pendant():
 def _string(reach, low, start, high):
     """A festoon of crystal beads from the stem out to an arm."""
     mesh = Mesh()
-    for i in range(5):
-        t = (i + 0.5) / 5
+    for i in range(4):
+        t = (i + 0.5) / 4
         x = start + (reach - start) * t
         z = high + (low - high) * t - 0.18 * math.sin(math.pi * t)
         mesh.append(lathe([(0.0, -0.03), (0.018, 0.0), (0.0, 0.03)], "crystal", 3, smooth=False), (x, 0, z))
@@ -82,32 +81,32 @@ def lantern():
 
 
 def sconce():
-    plate = lathe([(0.09, 0.0), (0.08, 0.015), (0.0, 0.025)], "gold", 8).map(lambda p: (p[0], p[2] + 0.004, -p[1] * 1.6))
+    plate = lathe([(0.09, 0.0), (0.08, 0.015), (0.0, 0.025)], "gold", 6).map(lambda p: (p[0], p[2] + 0.004, -p[1] * 1.6))
     body = Mesh().append(plate)
     for x in (-0.09, 0.09):
         path = [(0, 0.025, -0.03), (x * 0.5, 0.1, -0.1), (x, 0.14, -0.06), (x, 0.14, 0.02)]
-        body.append(tube(path, 0.01, "gold", 3)).append(lathe([(0.01, 0.0), (0.038, 0.022), (0.0, 0.026)], "gold", 6), (x, 0.14, 0.02)).append(candle((x, 0.14, 0.045)))
+        body.append(tube(path, 0.01, "gold", 3)).append(lathe([(0.01, 0.0), (0.038, 0.022), (0.0, 0.026)], "gold", 5), (x, 0.14, 0.02)).append(candle((x, 0.14, 0.045)))
     return body
 
 
 def torch():
     """An iron cresset on the wall."""
     body = joined(tube([(0, 0.004, -0.2), (0, 0.16, -0.05), (0, 0.18, 0.05)], 0.018, "iron", 6), box((-0.05, 0.003, -0.32), (0.05, 0.02, -0.08), "iron"))
-    body.append(lathe([(0.03, 0.0), (0.09, 0.06), (0.1, 0.16), (0.0, 0.1)], "iron", 8), (0, 0.18, 0.04))
-    return body.append(lathe([(0.07, 0.0), (0.06, 0.1), (0.025, 0.2), (0.0, 0.3)], "flame", 7), (0, 0.18, 0.16))
+    body.append(lathe([(0.03, 0.0), (0.09, 0.06), (0.1, 0.16), (0.0, 0.1)], "iron", 6), (0, 0.18, 0.04))
+    return body.append(lathe([(0.07, 0.0), (0.06, 0.1), (0.025, 0.2), (0.0, 0.3)], "flame", 5), (0, 0.18, 0.16))
 
 
 def vase(kind=0):
     shapes = ([(0.07, 0.0), (0.08, 0.02), (0.06, 0.04), (0.12, 0.14), (0.16, 0.27), (0.13, 0.4), (0.06, 0.48), (0.055, 0.54), (0.09, 0.58), (0.0, 0.52)],
               [(0.06, 0.0), (0.07, 0.02), (0.03, 0.06), (0.04, 0.09), (0.13, 0.18), (0.15, 0.3), (0.12, 0.36), (0.16, 0.44), (0.0, 0.34)])
-    body = lathe(shapes[kind % 2], ("porcelain", "cobalt", "terracotta")[kind % 3], 12)
+    body = lathe(shapes[kind % 2], ("porcelain", "cobalt", "terracotta")[kind % 3], 10)
     ring = (0.161, 0.27) if kind % 2 == 0 else (0.151, 0.3)
-    return body.append(lathe([(ring[0], ring[1] - 0.02), (ring[0] + 0.004, ring[1]), (ring[0], ring[1] + 0.02)], "gold" if kind else "cobalt", 12))
+    return body.append(lathe([(ring[0], ring[1] - 0.02), (ring[0] + 0.004, ring[1]), (ring[0], ring[1] + 0.02)], "gold" if kind else "cobalt", 10))
 
 
 def flowers():
     body = vase(0)
-    for k in range(11):
+    for k in range(9):
         a, r = 2.4 * k, 0.05 + 0.016 * k
         x, y, z = r * math.cos(a), r * math.sin(a), 0.85 - 0.022 * k
         body.append(tube([(0.02 * math.cos(a), 0.02 * math.sin(a), 0.52), (x, y, z)], 0.005, "leaves", 3))
@@ -118,7 +117,7 @@ def flowers():
 def _figure(material, seed):
     """A draped figure: body and drapery as one turned, fluted and swayed sheet; head and arms."""
     profile = [(0.24, 0.0), (0.25, 0.05), (0.21, 0.3), (0.19, 0.6), (0.2, 0.8), (0.165, 1.0), (0.2, 1.2), (0.2, 1.32), (0.09, 1.42), (0.055, 1.46), (0.055, 1.52)]
-    body = lathe(profile, material, 20)
+    body = lathe(profile, material, 18)
 
     def draped(point):
         x, y, z = point
@@ -133,8 +132,8 @@ def _figure(material, seed):
     body.append(lathe([(0.0, 0.0), (0.06, 0.02), (0.05, 0.07), (0.0, 0.09)], material, 10), (neck, -0.07, 1.63))
     for side in (-1, 1):
         up = (seed + side) % 3 == 0
-        path = [(neck + side * 0.19, 0, 1.34), (neck + side * 0.28, 0.04, 1.1), (neck + side * (0.24 if up else 0.14), 0.2, 1.32 if up else 0.98), (neck + side * (0.2 if up else 0.03), 0.24, 1.5 if up else 1.0)]
-        body.append(tube(path, [0.065, 0.052, 0.042, 0.03], material, 6))
+        path = [(neck + side * 0.12, 0, 1.4), (neck + side * 0.2, 0, 1.35), (neck + side * 0.28, 0.04, 1.1), (neck + side * (0.24 if up else 0.14), 0.2, 1.32 if up else 0.98), (neck + side * (0.2 if up else 0.03), 0.24, 1.5 if up else 1.0), (neck + side * (0.2 if up else 0.0), 0.25, 1.57 if up else 1.02)]
+        body.append(tube(path, [0.0, 0.068, 0.055, 0.045, 0.034, 0.0], material, 6))
     return body
 
 
@@ -145,9 +144,9 @@ def statue(seed=0, material="marble_white"):
 
 def bust(seed=0):
     body = plinth(1.15, 0.2, "marble_dark" if seed % 2 else "marble_cream")
-    chest = lathe([(0.07, 0.0), (0.08, 0.03), (0.04, 0.07), (0.05, 0.1), (0.2, 0.22), (0.23, 0.34), (0.18, 0.42), (0.07, 0.46), (0.06, 0.54)], "marble_white", 14)
+    chest = lathe([(0.07, 0.0), (0.08, 0.03), (0.04, 0.07), (0.05, 0.1), (0.2, 0.22), (0.23, 0.34), (0.18, 0.42), (0.07, 0.46), (0.06, 0.54)], "marble_white", 12)
     body.append(chest.map(lambda p: (p[0], p[1] * 0.62, p[2])), (0, 0, 1.15))
-    body.append(lathe([(0.0, 0.0), (0.065, 0.03), (0.09, 0.12), (0.1, 0.19), (0.085, 0.26), (0.0, 0.31)], "marble_white", 12), (0, 0.015, 1.65), 0, (0.9, 1.08, 1))
+    body.append(lathe([(0.0, 0.0), (0.065, 0.03), (0.09, 0.12), (0.1, 0.19), (0.085, 0.26), (0.0, 0.31)], "marble_white", 10), (0, 0.015, 1.65), 0, (0.9, 1.08, 1))
     return body.append(lathe([(0.0, -0.02), (0.016, 0.0), (0.0, 0.045)], "marble_white", 6), (0, 0.125, 1.77))
 
 
@@ -226,7 +225,7 @@ def clock():
 
 def globe():
     stand = joined(*[tube([(0.3 * math.cos(a), 0.3 * math.sin(a), 0.0), (0.08 * math.cos(a), 0.08 * math.sin(a), 0.35), (0.42 * math.cos(a), 0.42 * math.sin(a), 0.75)], 0.022, "wood_dark", 4) for a in (0.5, 2.6, 4.7)])
-    ball = lathe([(0.34 * math.sin(math.pi * i / 8), 0.34 - 0.34 * math.cos(math.pi * i / 8)) for i in range(9)], "old_map", 14)
+    ball = lathe([(0.34 * math.sin(math.pi * i / 7), 0.34 - 0.34 * math.cos(math.pi * i / 7)) for i in range(8)], "old_map", 12)
     return joined(stand, lathe([(0.4, 0.73), (0.46, 0.73), (0.46, 0.77), (0.4, 0.77), (0.4, 0.73)], "wood_dark", 14), Mesh().append(ball, (0, 0, 0.44)))
 
 
@@ -280,15 +279,15 @@ def armour():
     """A suit of plate on a stand."""
     body = joined(prism(octagon(0.35), 0, 0.12, "wood_dark"))
     for x in (-0.11, 0.11):
-        body.append(lathe([(0.06, 0.0), (0.05, 0.12), (0.075, 0.35), (0.055, 0.5), (0.085, 0.75), (0.09, 0.85)], "steel", 10), (x, 0.02, 0.12))
+        body.append(lathe([(0.055, 0.0), (0.075, 0.35), (0.055, 0.5), (0.09, 0.85)], "steel", 8), (x, 0.02, 0.12))
         body.append(block((0.1, 0.26, 0.07), "steel", (x, 0.1, 0.12)))
-    body.append(lathe([(0.19, 0.0), (0.16, 0.15), (0.2, 0.35), (0.22, 0.5), (0.15, 0.6), (0.07, 0.63)], "steel", 16).map(lambda p: (p[0], p[1] * 0.75, p[2])), (0, 0, 0.9))
-    body.append(lathe([(0.24, 0.0), (0.2, 0.12), (0.16, 0.16)], "steel", 14).map(lambda p: (p[0], p[1] * 0.8, p[2])), (0, 0, 0.78))
-    body.append(lathe([(0.08, 0.0), (0.11, 0.06), (0.115, 0.16), (0.09, 0.26), (0.0, 0.31)], "steel", 14), (0, 0, 1.5))
+    body.append(lathe([(0.19, 0.0), (0.16, 0.15), (0.2, 0.35), (0.22, 0.5), (0.15, 0.6), (0.07, 0.63)], "steel", 12).map(lambda p: (p[0], p[1] * 0.75, p[2])), (0, 0, 0.9))
+    body.append(lathe([(0.24, 0.0), (0.2, 0.12), (0.16, 0.16)], "steel", 10).map(lambda p: (p[0], p[1] * 0.8, p[2])), (0, 0, 0.78))
+    body.append(lathe([(0.08, 0.0), (0.11, 0.06), (0.115, 0.16), (0.09, 0.26), (0.0, 0.31)], "steel", 10), (0, 0, 1.5))
     body.append(box((-0.09, 0.1, 1.62), (0.09, 0.125, 1.65), "soot")).append(tube([(0, 0, 1.8), (0, -0.08, 1.98), (0, -0.22, 1.9)], [0.01, 0.05, 0.03], "cloth_red", 6))
     for side in (-1, 1):
-        body.append(lathe([(0.0, -0.06), (0.1, -0.03), (0.09, 0.05), (0.0, 0.09)], "steel", 10), (side * 0.25, 0, 1.42))
-        body.append(tube([(side * 0.27, 0, 1.4), (side * 0.31, 0.02, 1.12), (side * 0.24, 0.2, 0.98)], [0.06, 0.055, 0.045], "steel", 8))
+        body.append(lathe([(0.0, -0.06), (0.1, -0.03), (0.09, 0.05), (0.0, 0.09)], "steel", 7), (side * 0.25, 0, 1.42))
+        body.append(tube([(side * 0.27, 0, 1.4), (side * 0.31, 0.02, 1.12), (side * 0.24, 0.2, 0.98)], [0.06, 0.055, 0.045], "steel", 6))
     return body.append(tube([(0.24, 0.22, 0.12), (0.24, 0.22, 2.2)], 0.015, "wood_dark", 6)).append(lathe([(0.02, 2.15), (0.05, 2.25), (0.0, 2.5)], "steel", 6), (0.24, 0.22, 0))
 
 

@@ -12,6 +12,7 @@ from shell import Wall
 CLEAR_OF_WALK = 0.42
 CLEAR_OF_DOOR = 0.9
 CLEAR_OF_WALL = 0.04
+CLEAR_OF_PICTURE = 0.002
 CLEAR_OF_FRAME = 0.22
 LIFT = 0.003  # pieces stand this far over the floor, so that no two faces share a plane
 
@@ -84,8 +85,10 @@ class Placer:
     # ---- free pieces -----------------------------------------------------------------------------------------------
 
     def add(self, name, at, turn=0.0, height=LIFT, solid=True, extras=None):
-        """Puts a piece without asking; `height` over the floor."""
+        """Puts a piece without asking; `height` over the floor, which no foot of it goes below."""
         self.count += 1
+        if height == LIFT:
+            height -= min(0.0, self.shape(name).low[2])
         number = f"{self.room.name}_{name.partition('.')[0]}_{self.count}"
         self.scene.piece(self.room.name, number, name, (*at[:2], self.room.floor + height), turn, extras)
         if solid:
@@ -155,7 +158,7 @@ class Placer:
         """Puts a piece against a wall if its place is free."""
         wall, shape = self.walls[index], self.shape(name)
         turn = math.atan2(wall.direction[1], wall.direction[0])
-        at = add(wall.point(u, 0)[:2], scale(wall.inward, CLEAR_OF_WALL if standing else 0.002))
+        at = add(wall.point(u, 0)[:2], scale(wall.inward, CLEAR_OF_WALL - shape.low[1] if standing else CLEAR_OF_PICTURE - min(0.0, shape.low[1])))
         outline = self.outline(name, at, turn, 0.0)
         if standing and not self.fits(outline, wall_margin=0.01):
             return False

@@ -178,7 +178,7 @@ def _first_south():
         (-12.0, -5.0, "FootmensRoom", "servants", "plaster_warm", "planks", "flat"),
         (-4.5, 4.5, "FlagRoom", "hall", "paper_blue", "parquet", "cove"),
         (5.0, 12.0, "PrivateStudy", "library", "wood_panel", "parquet", "cove")])
-    back += _row(FIRST, -24.0, -13.0, [(12.5, 25.5, "BallRoom", "ballroom", "paper_ivory", "parquet", "cove")])
+    back += _row(FIRST, -24.0, -13.0, [(12.5, 25.5, "BallRoom", "ballroom", "paper_ivory", "parquet", "coffer")])
     return south + back + _knee(FIRST, "UpperKneeRoom", "salon", "paper_gold", "parquet", "cove")
 
 

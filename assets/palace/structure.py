@@ -2,9 +2,9 @@
 
 import math
 
-from catalogue import coffer_name, column_name
-from fittings import flight
-from geometry import add, centroid, clip_convex, depth_inside, inset, length, lerp, scale, sub, unit
+from catalogue import coffer_name, column_name, pillar_name
+from fittings import balustrade, flight
+from geometry import add, depth_inside, inset, length, lerp, scale, sub
 from meshes import Mesh, box
 from openings import WELLS
 from placing import LIFT, Well
@@ -19,6 +19,7 @@ COLUMNS = {  # room: places of free columns, radius
     "BallRoom": ([(x, y) for x in (14.0, 24.0) for y in (-22.5, -20.0, -17.0, -14.5)], 0.26),
     "Chapel": ([(x, y) for x in (-17.0, -14.75, -12.0) for y in (18.6, 24.4)], 0.3),
     "Belvedere": ([], 0.25), "Rotunda": ([], 0.26)}
+VAULT_AT_PILLAR = 0.95  # how much higher than its spring the undercroft's vault is over a pillar
 PILLARS = {
     "Undercroft": [(x, y) for x in (-2.25, 2.25) for y in (-22.0, -16.5, -11.5)],
     "Cistern": [(x, y) for x in (4.5, 7.0, 9.5) for y in (-3.5, 0.0, 3.5)]}
@@ -30,6 +31,8 @@ def build(placer):
     _columns(placer)
     if room.top == "coffer":
         _coffers(placer)
+    if room.theme == "chapel":
+        _entablature(placer)
     _opening_balustrades(placer)
 
 
@@ -38,8 +41,8 @@ def _columns(placer):
     drop = 0.25 if room.top == "coffer" else 0.0
     places, radius = COLUMNS.get(room.name, ([], 0.0))
     if room.name in ("Rotunda", "Belvedere"):
-        places = [lerp(centroid(room.footprint), p, 0.93) for i, p in enumerate(room.footprint) if i % 2 == 0 or i % 4 == 3]
-        places = [p for p in places if all(math.dist(p, w) > 0.85 for w in placer.walk)]
+        # Beside the diagonals; the doors stand in the sides that face the four winds.
+        places = [lerp(placer.centre, p, 0.9) for i, p in enumerate(room.footprint) if i % 4 in (2, 3)]
     for at in places:
         height = room.spring - room.floor - drop - LIFT - 0.002
         if room.top == "barrel":
@@ -47,8 +50,18 @@ def _columns(placer):
         stone = "marble_white" if room.theme in ("chapel", "ballroom") else "marble_rose_plain"
         _must(placer, column_name(height, radius, stone), at)
     for at in PILLARS.get(room.name, []):
-        low = room.spring if room.top == "barrel" else room.ceiling
-        _must(placer, f"pillar.{low - room.floor - 0.005:.3f}".replace(".", ";").replace(";", ".", 1).replace(";", "_"), at)
+        top = room.spring + VAULT_AT_PILLAR if room.top == "barrel" else room.ceiling
+        _must(placer, pillar_name(top - room.floor - 0.005), at)
+
+
+def _entablature(placer):
+    """A beam on each row of the chapel's columns, from wall to wall."""
+    (x0, y0), _, (x1, y1), _ = placer.room.footprint
+    mesh = Mesh()
+    for y in (y0 + 1.6, y1 - 1.6):
+        for half, low, high in ((0.3, 5.004, 5.35), (0.34, 5.35, 5.42), (0.42, 5.42, 5.55)):
+            mesh.append(box((x0 + 0.012, y - half, low), (x1 - 0.012, y + half, high), "marble_white", "we" + ("b" if half == 0.34 else "")))
+    placer.scene.local_mesh(placer.room.name, f"{placer.room.name}_entablature", mesh)
 
 
 def _must(placer, name, at):
@@ -119,7 +132,6 @@ def _stair(placer, stair):
 
 def _sloped_rail(x0, x1, y, z_at_x0, slope):
     """A balustrade along a flight, sheared to its slope."""
-    from fittings import balustrade
     length_x = x1 - x0
     if length_x < 0.3:
         return Mesh()
@@ -142,10 +154,9 @@ def _well_rails(placer, well):
         span = length(sub(q, p))
         at, turn = lerp(p, q, 0.5), math.atan2(q[1] - p[1], q[0] - p[0])
         placer.add(f"balustrade.{round((span - 0.2) * 1000)}", at, turn)
-        if len(sides) < 8:
-            placer.add("newel", p)
-            if stair:
-                placer.add("newel", q)
+        for corner in (p, q) if len(sides) < 8 else ():
+            if depth_inside(placer.room.footprint, corner) > 0.16:
+                placer.add("newel", corner)
 
 
 def _opening_balustrades(placer):

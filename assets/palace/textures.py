@@ -87,7 +87,7 @@ def raised_panel(base, low, high, size=256):
 
 
 def wood_panel():
-    return raised_panel(grain(256, 31, "3a2110", "71451f"), 0.02, 0.98)
+    return raised_panel(grain(256, 31, "4d2d17", "895a2f"), 0.02, 0.98)
 
 
 def wainscot():

@@ -2,13 +2,16 @@
 
 import math
 
-from geometry import add, depth_inside, lerp, scale
+from geometry import add, lerp, scale
+from meshes import tube
 from openings import WELLS
+from placing import CLEAR_OF_PICTURE
 
 CLOTHS = {"paper_red": "cloth_red", "paper_green": "cloth_green", "paper_blue": "cloth_blue", "paper_gold": "cloth_red",
           "paper_rose": "cloth_white", "paper_ivory": "cloth_blue", "wood_panel": "cloth_green", "marble_cream": "cloth_red"}
 RUGS = {"cloth_red": "carpet_red", "cloth_green": "carpet_green", "cloth_blue": "carpet_blue", "cloth_white": "carpet_blue"}
 PORTRAITS, SCENES = (4, 5, 6, 7, 12, 14), (0, 1, 2, 3, 8, 9, 10, 11, 13, 15)
+BRIGHTNESS = 1.8  # over the candelas below; one place to make the whole palace lighter
 WARM, CANDLE, DAY = (1.0, 0.85, 0.64), (1.0, 0.72, 0.42), (0.86, 0.93, 1.0)
 
 
@@ -27,6 +30,7 @@ def picture_names(p, kind, numbers):
 
 def light(p, at, height, candela, colour=WARM, reach=None):
     p.lights = getattr(p, "lights", 0)
+    candela *= BRIGHTNESS
     p.scene.light(p.room.name, p.lights, (*at, p.room.floor + height), candela, colour, reach or 4.0 + candela ** 0.5 * 1.3)
     p.lights += 1
 
@@ -49,7 +53,6 @@ def chandeliers(p, name="chandelier", columns=1, rows=1, candela=38.0, drop=0.0,
 
 
 def _cable(p, at, top, rise):
-    from meshes import tube
     z = p.room.floor + top
     p.scene.local_mesh(p.room.name, f"{p.room.name}_cable_{p.count}", tube([(*at, z), (*at, z + rise - 0.004)], 0.015, "brass", 5))
 
@@ -89,7 +92,7 @@ def mirror(p, wall, u, height):
     if p.at_wall("mirror_frame", wall, u, height, False):
         own = p.walls[wall]
         turn = math.atan2(own.direction[1], own.direction[0])
-        at = add(own.point(u, 0)[:2], scale(own.inward, 0.002))
+        at = add(own.point(u, 0)[:2], scale(own.inward, CLEAR_OF_PICTURE))
         p.add("mirror_panel", at, turn, height, solid=False, extras={"mirror": True})
 
 
@@ -98,7 +101,7 @@ def pictures(p, kind="portrait", height=1.45, spacing=0.9, numbers=PORTRAITS, mo
 
 
 def sconces(p, count=4, height=1.95):
-    p.hang("sconce", height, count)
+    p.hang("sconce", height, max(2, count * 2 // 3))
 
 
 def consoles(p, count=1):
@@ -161,8 +164,8 @@ def salon(p):
     group = table_group(p, "tea_table", f"armchair.{tone}", 4, radius=0.95, rug=f"rug.{RUGS[tone]}")
     if group is None:
         p.rug(f"rug.{RUGS[tone]}")
-    consoles(p, 2)
-    p.stand(f"chair.{tone}", 4)
+    consoles(p, 1)
+    p.fill(f"chair.{tone}", spacing=0.9, most=4)
     pictures(p, "picture", 1.6, 1.1, SCENES, 4)
     pictures(p, "portrait", 1.55, 0.7, PORTRAITS, 4)
     sconces(p, 2)
@@ -191,7 +194,7 @@ def dining(p):
     long_table_group(p, "dining_table", f"chair.{tone}", 5, near=p.centre)
     fire(p)
     consoles(p, 2)
-    p.fill(f"chair.{tone}", spacing=0.9, most=6)
+    p.fill(f"chair.{tone}", spacing=0.9, most=3)
     pictures(p, "picture", 1.6, 0.8, SCENES, 6)
     sconces(p, 4)
     chandeliers(p)
@@ -203,7 +206,7 @@ def throne(p):
     for _ in range(4):
         p.place("candelabrum", near=p.random.choice(p.room.footprint))
     p.hang("tapestry", 1.3, 2)
-    p.fill("stool.cloth_red", spacing=0.6, most=10)
+    p.fill("stool.cloth_red", spacing=0.6, most=8)
     p.hang("trophy", 2.6, 2)
     sconces(p, 4)
     consoles(p, 1)
@@ -280,7 +283,7 @@ def billiard(p):
     at = p.place("billiard_table", margin=0.6) or p.place("billiard_table", turn=math.pi / 2, margin=0.4)
     fire(p)
     p.stand("bench", 3)
-    p.fill("chair.leather", spacing=0.5, most=8)
+    p.fill("chair.leather", spacing=0.8, most=4)
     p.hang("trophy", 2.2, 4)
     pictures(p, "picture", 1.6, 0.8, SCENES, 4)
     sconces(p, 4)
@@ -295,9 +298,9 @@ def gallery(p):
     pictures(p, "great_picture", 1.35, 0.9, SCENES, 8)
     pictures(p, "portrait", 1.5, 0.6, PORTRAITS, 12)
     consoles(p, 2)
-    p.fill("bust.0", spacing=1.6, most=4)
+    p.fill("bust.0", spacing=1.6, most=3)
     p.fill("bench", spacing=1.0, most=6)
-    p.fill(f"chair.{tone}", spacing=0.8, most=8)
+    p.fill(f"chair.{tone}", spacing=1.2, most=4)
     sconces(p, 6, 2.1)
     long_side = math.dist(p.room.footprint[0], p.room.footprint[1]) > math.dist(p.room.footprint[1], p.room.footprint[2])
     number = max(2, round(max(math.dist(p.room.footprint[0], p.room.footprint[1]), math.dist(p.room.footprint[1], p.room.footprint[2])) / 5))
@@ -320,7 +323,7 @@ def bedroom(p):
     p.stand("wardrobe", 1)
     p.stand("chest", 1)
     table_group(p, "tea_table", f"armchair.{tone}", 2, radius=0.9)
-    p.place(f"screen.{tone}")
+    p.place(f"screen.{tone}", near=p.random.choice(p.room.footprint), margin=0.05)
     consoles(p, 1)
     p.stand(f"chair.{tone}", 2)
     p.stand("side_table", 1)
@@ -335,7 +338,7 @@ def ballroom(p):
     for wall in (0, 2):
         for share in (0.2, 0.8):
             mirror(p, wall, p.walls[wall].length * share, 0.6)
-    p.fill(f"chair.{tone}", spacing=0.15, most=30)
+    p.fill(f"chair.{tone}", spacing=0.15, most=20)
     p.place("harpsichord", near=lerp(p.room.footprint[0], p.centre, 0.4))
     for k in range(5):
         p.place("candelabrum", near=p.room.footprint[k % 4])
@@ -354,7 +357,7 @@ def hall(p):
     p.stand("bench", 3)
     consoles(p, 2)
     p.stand("clock", 1)
-    p.fill(f"chair.{tone}", spacing=0.7, most=6)
+    p.fill(f"chair.{tone}", spacing=0.9, most=4)
     p.fill("bust.1", spacing=1.5, most=3)
     pictures(p, "portrait", 1.5, 0.7, PORTRAITS, 6)
     p.hang("tapestry", 1.2, 1)
@@ -392,7 +395,7 @@ def marble(p):
 def great_hall(p):
     p.hang("tapestry", 1.5, 6)
     fire(p, walls=[0, 2])
-    p.fill("armour", spacing=1.8, most=10)
+    p.fill("armour", spacing=1.8, most=6)
     p.fill("bench", spacing=0.5, most=10)
     p.hang("trophy", 2.6, 6)
     for near in ((15.0, 0.0), (21.0, 5.0), (21.0, -5.0)):
@@ -462,7 +465,7 @@ def guard(p):
     p.fill("weapon_rack", spacing=1.0, most=4)
     long_table_group(p, "long_table", "stool.leather", 3)
     fire(p)
-    p.fill("armour", spacing=0.8, most=6)
+    p.fill("armour", spacing=0.8, most=4)
     p.stand("chest", 3)
     p.stand("bench", 2)
     p.hang("trophy", 2.2, 6)

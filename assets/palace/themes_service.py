@@ -3,6 +3,7 @@
 import math
 
 from geometry import add, lerp, scale
+from meshes import tube
 from themes import (CANDLE, DAY, PORTRAITS, SCENES, chandeliers, curtains, fire, light, long_table_group, pictures, sconces,
                     table_group)
 
@@ -56,7 +57,6 @@ def chapel(p):
 
 
 def _chain(p, at, low, rise):
-    from meshes import tube
     z = p.room.floor + low
     p.scene.local_mesh(p.room.name, f"{p.room.name}_chain_{p.count}", tube([(*at, z), (*at, z + rise)], 0.012, "iron", 4))
 
@@ -98,7 +98,7 @@ def orangery(p):
     for share in (0.25, 0.75):
         at = lerp(lerp(p.room.footprint[0], p.room.footprint[1], share), lerp(p.room.footprint[3], p.room.footprint[2], share), 0.5)
         p.add("lantern", at, 0, p.room.ceiling - p.room.floor - 0.005, solid=False)
-        light(p, at, p.room.spring - p.room.floor - 0.6, 34.0, DAY)
+        light(p, at, 2.7, 30.0, DAY)
 
 
 def studio(p):
@@ -230,7 +230,7 @@ def _pilasters(p):
     for index, wall in enumerate(p.walls):
         u = 0.5
         while u < wall.length - 0.4:
-            for name, height in (("pilaster.4_55", 0.003), ("pilaster.4_3", 4.925)):
+            for name, height in (("pilaster.4550", 0.003), ("pilaster.4300", 4.925)):
                 p.at_wall(name, index, u, height, False) if _free(p, index, u, height) else None
             u += 0.5
 

@@ -64,8 +64,10 @@ class Stair:
         front, back = self.lanes
         middle, x0, x1 = (self.bottom + self.top) / 2, self.landing, self.box[2]
         turn = (self.box[0] + self.landing) / 2
-        return [(x1 + 0.75, front, self.bottom), (x1, front, self.bottom), (x0, front, middle), (turn, front, middle),
-                (turn, back, middle), (x0, back, middle), (x1, back, self.top), (x1 + 0.75, back, self.top)]
+        clear = self.box[3] + 0.85 if self.front_north else self.box[1] - 0.85
+        return [(x1 + 0.75, clear, self.bottom), (x1 + 0.75, front, self.bottom), (x1, front, self.bottom), (x0, front, middle), (turn, front, middle),
+                (turn, back, middle), (x0, back, middle), (x1, back, self.top), (x1 + 0.75, back, self.top),
+                (x1 + 0.75, clear, self.top)]
 
 
 STAIRS = [
