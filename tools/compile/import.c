@@ -133,10 +133,11 @@ static EnfResult prepare(EnfImport *import) {
     }
     import->buffers = enf_import_scratch(import, import->buffer_count, sizeof *import->buffers);
     import->views = enf_import_scratch(import, import->gltf.view_count, sizeof *import->views);
-    import->mesh_used = enf_import_scratch(import, import->gltf.mesh_count, sizeof *import->mesh_used);
-    if (!import->buffers || !import->views || !import->mesh_used) {
+    import->mesh_nodes = enf_import_scratch(import, import->gltf.mesh_count, sizeof *import->mesh_nodes);
+    if (!import->buffers || !import->views || !import->mesh_nodes) {
         return import->failure;
     }
+    memset(import->mesh_nodes, 0xFF, import->gltf.mesh_count * sizeof *import->mesh_nodes);
     import->default_material = ENF_NONE;
     EnfSource *source = import->source;
     source->has_extras = mentions(&import->json, "extras");

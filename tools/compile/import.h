@@ -61,7 +61,7 @@ typedef struct EnfImport {
     uint32_t *source_nodes;    /* a file node's place in source->nodes, or ENF_NONE */
     uint32_t *source_textures; /* a file texture's place in source->textures, or ENF_NONE */
     uint32_t *uv_sets;         /* a source material's TEXCOORD set */
-    bool *mesh_used;
+    uint32_t *mesh_nodes;      /* the first source node that has the mesh, or ENF_NONE: it is not read */
     uint32_t default_material; /* for primitives without, or ENF_NONE */
 } EnfImport;
 

@@ -20,9 +20,10 @@ static EnfResult refuse(MeshReader *reader, EnfResult code, const char *what) {
 }
 
 static void lose(MeshReader *reader, const char *what) {
-    const char *name = reader->import->gltf.meshes[reader->mesh].name;
-    enf_diagnose(reader->import->diagnosis, ENF_DIAGNOSIS_UNSUPPORTED, "", "mesh '%s', primitive %u: %s", name, reader->part,
-                 what);
+    const EnfImport *import = reader->import;
+    const char *node = import->source->nodes[import->mesh_nodes[reader->mesh]].name;
+    enf_diagnose(import->diagnosis, ENF_DIAGNOSIS_UNSUPPORTED, node, "mesh '%s', primitive %u: %s",
+                 import->gltf.meshes[reader->mesh].name, reader->part, what);
 }
 
 /* ---- triangles -------------------------------------------------------------------------------------------------- */
@@ -237,7 +238,7 @@ static EnfResult read_mesh(MeshReader *reader, EnfSourceMesh *mesh, EnfSourcePri
     if (!mesh->name) {
         return import->failure;
     }
-    if (!import->mesh_used[reader->mesh]) {
+    if (import->mesh_nodes[reader->mesh] == ENF_NONE) {
         return ENF_OK;
     }
     for (uint32_t i = 0; i < from->primitive_count; i++) {

@@ -252,7 +252,8 @@ static EnfResult visit_node(Walk *walk, Visit visit) {
     }
     uint32_t copies = instance_count(gltf, from);
     if (from->mesh != ENF_NONE) {
-        import->mesh_used[from->mesh] = true;
+        uint32_t *first = &import->mesh_nodes[from->mesh];
+        *first = *first == ENF_NONE ? index : *first;
         if (copies != ENF_NONE) {
             result = add_instances(walk, index, copies);
         }
