@@ -74,7 +74,7 @@ static bool is_thing(const EnfMap *map, uint32_t cell, uint32_t node) {
     return 2.0 * size.x * size.y * size.z < cell_volume(c);
 }
 
-static bool shell_wanted(const EnfMap *map, uint32_t index, void *user) {
+static bool shell_wanted(const EnfMap *map, uint32_t index, const void *user) {
     const Shell *shell = user;
     const EnfCluster *cluster = &map->clusters[index];
     const EnfMaterial *material = &map->materials[cluster->material];
@@ -112,12 +112,13 @@ static void probe_portals(const EnfMap *map, uint32_t cell, EnfVec3 local, EnfVe
 }
 
 /* What the ray meets first says inside; nothing met is outside. `*behind`: the node whose back it was, or ENF_NONE. */
-static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 direction, uint32_t *behind) {
+static bool probe(const EnfMap *map, const Shell *shell, EnfVec3 p_ws, EnfVec3 direction, uint32_t *behind) {
     EnfRayHit hit;
     double t = HUGE_VAL;
     bool inside = false;
     *behind = ENF_NONE;
-    if (enf_map_ray_among(map, shell->cell, p_ws, direction, HUGE_VAL, &hit, shell_wanted, shell)) {
+    EnfMapQuery query = {shell->cell, p_ws, direction, HUGE_VAL, shell_wanted, shell};
+    if (enf_map_ray_query(map, &query, &hit)) {
         t = hit.t;
         inside = hit.front;
         *behind = inside ? ENF_NONE : map->clusters[hit.cluster].node;
@@ -128,7 +129,7 @@ static bool probe(const EnfMap *map, Shell *shell, EnfVec3 p_ws, EnfVec3 directi
 
 /* The majority of the probes. `*enclosing`: the node whose back most of them met, or ENF_NONE (a thing that stands on the floor hides
  * its underside, so not all need to). */
-static bool vote(const EnfMap *map, Shell *shell, EnfVec3 p_ws, uint32_t *enclosing) {
+static bool vote(const EnfMap *map, const Shell *shell, EnfVec3 p_ws, uint32_t *enclosing) {
     uint32_t behind[PROBE_COUNT];
     int votes = 0;
     for (int i = 0; i < PROBE_COUNT; i++) {

@@ -98,10 +98,16 @@ bool enf_map_ray_make(EnfMapRay *ray, EnfVec3 direction);
 bool enf_map_ray_triangle(const EnfMapRay *ray, EnfVec3 a, EnfVec3 b, EnfVec3 c, double *t);
 /** Corner `k` of triangle `triangle` of a cluster, relative to the home cell's origin. */
 EnfVec3 enf_map_corner(const EnfMap *map, const EnfCluster *cluster, uint32_t triangle, uint32_t k);
-/** The nearest hit among the clusters that `wanted` accepts (NULL: all). */
-typedef bool EnfMapWanted(const EnfMap *map, uint32_t cluster, void *user);
-bool enf_map_ray_among(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 direction, double t_max, EnfRayHit *hit,
-                       EnfMapWanted *wanted, void *user);
+/** What a ray is asked: the nearest hit among the clusters of a cell's tree that `wanted` accepts (NULL: all). */
+typedef bool EnfMapWanted(const EnfMap *map, uint32_t cluster, const void *user);
+typedef struct EnfMapQuery {
+    uint32_t cell;
+    EnfVec3 from_ws, direction;
+    double t_max;
+    EnfMapWanted *wanted;
+    const void *user; /**< for wanted */
+} EnfMapQuery;
+bool enf_map_ray_query(const EnfMap *map, const EnfMapQuery *query, EnfRayHit *hit);
 
 static inline EnfVec3 enf_map_origin(const EnfMap *map, uint32_t cell) {
     const double *o = map->cells[cell].origin;

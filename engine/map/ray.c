@@ -54,20 +54,18 @@ EnfVec3 enf_map_corner(const EnfMap *map, const EnfCluster *cluster, uint32_t tr
 
 typedef struct Search {
     const EnfMap *map;
+    const EnfMapQuery *query;
     EnfMapRay ray;
-    EnfVec3 from_ws;
-    EnfMapWanted *wanted;
-    void *user;
     EnfRayHit hit;
 } Search;
 
 static double search_cluster(void *user, uint32_t index, double t_max) {
     Search *s = user;
     const EnfCluster *cluster = &s->map->clusters[index];
-    if (s->wanted && !s->wanted(s->map, index, s->user)) {
+    if (s->query->wanted && !s->query->wanted(s->map, index, s->query->user)) {
         return t_max;
     }
-    EnfVec3 from = enf_sub(s->from_ws, enf_map_origin(s->map, cluster->cell));
+    EnfVec3 from = enf_sub(s->query->from_ws, enf_map_origin(s->map, cluster->cell));
     for (uint32_t i = 0; i < cluster->index_count / 3; i++) {
         EnfVec3 a = enf_sub(enf_map_corner(s->map, cluster, i, 0), from);
         EnfVec3 b = enf_sub(enf_map_corner(s->map, cluster, i, 1), from);
@@ -86,14 +84,14 @@ static double search_cluster(void *user, uint32_t index, double t_max) {
     return t_max;
 }
 
-bool enf_map_ray_among(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 direction, double t_max, EnfRayHit *hit,
-                       EnfMapWanted *wanted, void *user) {
-    Search search = {map, {{0, 0, 0}, 0, 0, 0, 0, 0, 0}, from_ws, wanted, user, {0, ENF_NONE, ENF_NONE, false}};
-    if (cell >= map->cells_count || !enf_v3_finite(from_ws) || !enf_map_ray_make(&search.ray, direction)) {
+bool enf_map_ray_query(const EnfMap *map, const EnfMapQuery *query, EnfRayHit *hit) {
+    Search search = {map, query, {{0, 0, 0}, 0, 0, 0, 0, 0, 0}, {0, ENF_NONE, ENF_NONE, false}};
+    if (query->cell >= map->cells_count || !enf_v3_finite(query->from_ws) || !enf_map_ray_make(&search.ray, query->direction)) {
         return false;
     }
-    EnfKdTree tree = enf_map_cell_tree(map, cell);
-    enf_kd_ray(&tree, enf_sub(from_ws, enf_map_origin(map, cell)), direction, t_max, search_cluster, &search);
+    EnfKdTree tree = enf_map_cell_tree(map, query->cell);
+    EnfVec3 from = enf_sub(query->from_ws, enf_map_origin(map, query->cell));
+    enf_kd_ray(&tree, from, query->direction, query->t_max, search_cluster, &search);
     if (search.hit.cluster != ENF_NONE) {
         *hit = search.hit;
     }
@@ -101,5 +99,6 @@ bool enf_map_ray_among(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec
 }
 
 bool enf_map_ray(const EnfMap *map, uint32_t cell, EnfVec3 from_ws, EnfVec3 direction, double t_max, EnfRayHit *hit) {
-    return enf_map_ray_among(map, cell, from_ws, direction, t_max, hit, NULL, NULL);
+    EnfMapQuery query = {cell, from_ws, direction, t_max, NULL, NULL};
+    return enf_map_ray_query(map, &query, hit);
 }

@@ -138,12 +138,12 @@ static EnfVec3 cell_origin(const EnfMaker *m, uint32_t cell) {
     return enf_v3(o[0], o[1], o[2]);
 }
 
-void enf_maker_light(EnfMaker *m, uint32_t cell, EnfVec3 p, float r, float g, float b, float range) {
+void enf_maker_light(EnfMaker *m, uint32_t cell, EnfVec3 p, EnfVec3f color, float range) {
     EnfLight light;
     memset(&light, 0, sizeof light);
     light.position[0] = p.x, light.position[1] = p.y, light.position[2] = p.z;
     light.direction[1] = -1.0f;
-    light.color[0] = r, light.color[1] = g, light.color[2] = b;
+    light.color[0] = color.x, light.color[1] = color.y, light.color[2] = color.z;
     light.range = range;
     light.inner_cos = 1.0f;
     light.kind = ENF_LIGHT_POINT;
@@ -250,28 +250,26 @@ static void add_half(EnfMaker *m, EnfPortal portal, const EnfVec3 *points, uint3
     ADD(m, halves, &half, 1);
 }
 
-uint32_t enf_maker_portal(EnfMaker *m, const char *name, uint32_t source, uint32_t target, const EnfVec3 *points,
-                          uint32_t count, uint32_t flags) {
+uint32_t enf_maker_add_portal(EnfMaker *m, const EnfMakerPortal *p) {
     uint32_t number = m->halves.count;
-    EnfPortal portal = {source, target, number + 1, 0, 0, ENF_NONE, flags, enf_maker_string(m, name)};
-    add_half(m, portal, points, count, false);
-    portal.source = target, portal.target = source, portal.twin = number;
-    add_half(m, portal, points, count, true);
+    EnfPortal portal = {p->source, p->target, number + 1, 0, 0, ENF_NONE, p->flags, enf_maker_string(m, p->name)};
+    add_half(m, portal, p->points, p->count, false);
+    portal.source = p->target, portal.target = p->source, portal.twin = number;
+    add_half(m, portal, p->points, p->count, true);
     return number;
 }
 
-uint32_t enf_maker_teleport(EnfMaker *m, uint32_t source, uint32_t target, const EnfVec3 *points, uint32_t count,
-                            const EnfAffine *transform, uint32_t twin) {
+uint32_t enf_maker_add_teleport(EnfMaker *m, const EnfMakerPortal *p, const EnfAffine *transform, uint32_t twin) {
     EnfTransform record;
     memcpy(record.m, transform->m, sizeof record.m);
     record.t[0] = transform->t.x, record.t[1] = transform->t.y, record.t[2] = transform->t.z;
-    uint32_t flags = enf_affine_det(transform) < 0.0 ? ENF_PORTAL_MIRROR : 0;
-    EnfPortal portal = {source, target, twin, 0, 0, m->transforms.count, flags, enf_maker_string(m, "teleport")};
+    uint32_t flags = p->flags | (enf_affine_det(transform) < 0.0 ? ENF_PORTAL_MIRROR : 0);
+    EnfPortal portal = {p->source, p->target, twin, 0, 0, m->transforms.count, flags, enf_maker_string(m, p->name)};
     ADD(m, transforms, &record, 1);
     if (twin != ENF_NONE) {
         ((Half *)m->halves.data)[twin].portal.twin = m->halves.count;
     }
-    add_half(m, portal, points, count, false);
+    add_half(m, portal, p->points, p->count, false);
     return m->halves.count - 1;
 }
 

@@ -26,15 +26,25 @@ void enf_maker_polygon(EnfMaker *maker, uint32_t cell, uint32_t material, const 
 void enf_maker_box(EnfMaker *maker, uint32_t cell, uint32_t material, EnfBox3 box, bool inward);
 /** The current group, all of one cell and material, is also listed in the tree of `cell`. */
 void enf_maker_reach(EnfMaker *maker, uint32_t cell);
-/** A pair of half-portals; front out of `source`. Returns the number of the pair: enf_maker_half gives the map's indices. */
-uint32_t enf_maker_portal(EnfMaker *maker, const char *name, uint32_t source, uint32_t target, const EnfVec3 *points,
-                          uint32_t count, uint32_t flags);
-/** A half-portal alone, with a transform (`p_target = transform p_source`). A reflection gets its flag; a pair is two calls
- *  and `twin` the number of the other, or ENF_NONE. Returns its number, of the same count as enf_maker_portal's. */
-uint32_t enf_maker_teleport(EnfMaker *maker, uint32_t source, uint32_t target, const EnfVec3 *points, uint32_t count,
-                            const EnfAffine *transform, uint32_t twin);
+/** A portal to be: `points` of `count` corners, front out of `source`; none for an overlap. */
+typedef struct EnfMakerPortal {
+    const char *name;
+    uint32_t source, target;
+    const EnfVec3 *points;
+    uint32_t count, flags; /**< ENF_PORTAL_*; MIRROR is found by itself */
+} EnfMakerPortal;
+/** A pair of half-portals. Returns the number of the pair: enf_maker_half gives the map's indices. */
+uint32_t enf_maker_add_portal(EnfMaker *maker, const EnfMakerPortal *portal);
+#define enf_maker_portal(maker, name, source, target, points, count, flags)                                                    \
+    enf_maker_add_portal((maker), &(EnfMakerPortal){(name), (source), (target), (points), (count), (flags)})
+/** A half-portal alone, with a transform (`p_target = transform p_source`). A pair is two calls, and `twin` the number of the first,
+ *  else ENF_NONE. Returns its number, of the same count as enf_maker_portal's. */
+uint32_t enf_maker_add_teleport(EnfMaker *maker, const EnfMakerPortal *portal, const EnfAffine *transform, uint32_t twin);
+#define enf_maker_teleport(maker, source, target, points, count, transform, twin)                                              \
+    enf_maker_add_teleport((maker), &(EnfMakerPortal){"teleport", (source), (target), (points), (count), 0}, (transform),      \
+                           (twin))
 /** A point light that reaches its own cell alone. */
-void enf_maker_light(EnfMaker *maker, uint32_t cell, EnfVec3 position_ws, float r, float g, float b, float range);
+void enf_maker_light(EnfMaker *maker, uint32_t cell, EnfVec3 position_ws, EnfVec3f color, float range);
 /** Limits the newest light in its cell to what lies inside `planes` (relative to the light). */
 void enf_maker_light_window(EnfMaker *maker, const EnfPlane4f *planes, uint32_t count);
 /** The half-space n·p <= n·point of the bound of the newest cell. */

@@ -183,7 +183,7 @@ static void add_room(EnfRooms *rooms, uint32_t cell, uint64_t *random) {
     add_furniture(rooms, cell, random);
     if (rooms->def.lights) {
         EnfVec3 lamp = enf_v3(0.5 * (box.min.x + box.max.x), box.max.y - 0.25, 0.5 * (box.min.z + box.max.z));
-        enf_maker_light(m, cell, lamp, 20.0f, 18.0f, 15.0f, 12.0f);
+        enf_maker_light(m, cell, lamp, (EnfVec3f){20.0f, 18.0f, 15.0f}, 12.0f);
     }
 }
 

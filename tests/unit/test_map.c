@@ -43,9 +43,9 @@ static EnfMaker *make_everything(void) {
     EnfMaker *m = enf_maker_create();
     uint32_t a, b, cupboard;
     enf_maker_cell(m, "hall-room", enf_v3(0, 0, 0), &a);
-    enf_maker_light(m, a, enf_v3(1, 2, 1), 1, 1, 1, 10);
+    enf_maker_light(m, a, enf_v3(1, 2, 1), (EnfVec3f){1, 1, 1}, 10);
     enf_maker_cell(m, "study_Room", enf_v3(4, 0, 0), &b);
-    enf_maker_light(m, b, enf_v3(6, 2, 1), 1, 1, 1, 10);
+    enf_maker_light(m, b, enf_v3(6, 2, 1), (EnfVec3f){1, 1, 1}, 10);
     const EnfPlane4f window[2] = {{{1, 0, 0}, 0}, {{0, 1, 0}, 1}};
     enf_maker_light_window(m, window, 2);
     enf_maker_cell(m, "cupboard", enf_v3(1, 0, 1), &cupboard)->priority = 1;
