@@ -24,24 +24,6 @@ static EnfResult check_version(EnfGl *gl, EnfError *error) {
     return ENF_OK;
 }
 
-static bool has_vertex_colors(const EnfMap *map) {
-    for (uint32_t i = 0; i < map->vertices_count; i++) {
-        if (map->vertices[i].color != UINT32_MAX) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Lamps need a little fill; vertex colours without lamps are baked light, to be shown as it is; with neither, a bright
- * hemisphere and a slanting key tell walls, floor and ceiling apart. */
-static EnfGlAmbient choose_ambient(const EnfMap *map) {
-    static const EnfGlAmbient fill = {{0.065f, 0.060f, 0.058f}, {0.110f, 0.115f, 0.130f}, {0.010f, 0.008f, 0.006f}};
-    static const EnfGlAmbient baked = {{0.94f, 0.94f, 0.94f}, {1.12f, 1.12f, 1.12f}, {0.06f, 0.00f, 0.03f}};
-    static const EnfGlAmbient plain = {{0.50f, 0.48f, 0.46f}, {0.98f, 1.00f, 1.04f}, {0.16f, 0.05f, 0.09f}};
-    return map->lights_count ? fill : has_vertex_colors(map) ? baked : plain;
-}
-
 /* Surfaces that the map has, ids for them, wireframe and lines. */
 static uint32_t needed_programs(const EnfMap *map) {
     uint32_t needed = 1u << ENF_GL_PROGRAM_FLAT | 1u << ENF_GL_PROGRAM_LINES;
@@ -60,14 +42,13 @@ EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfErr
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the renderer");
     }
     made->map = map;
-    made->ambient = choose_ambient(map);
     EnfResult result = enf_gl_functions_load(&made->f, load, error);
     if (result != ENF_OK) {
         enf_free(NULL, made, 1, sizeof *made);
         return result;
     }
     if ((result = check_version(made, error)) != ENF_OK || (result = enf_gl_upload_geometry(made, error)) != ENF_OK ||
-        (result = enf_gl_programs_create(&made->f, made->programs, needed_programs(map), made->light_features, error)) !=
+        (result = enf_gl_programs_create(&made->f, made->programs, needed_programs(map), made->light_map != 0, error)) !=
             ENF_OK ||
         (result = enf_gl_upload_textures(made, error)) != ENF_OK) {
         enf_gl_destroy(made);

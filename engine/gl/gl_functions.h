@@ -70,6 +70,7 @@
     X(TexParameteri, PFNGLTEXPARAMETERIPROC)                                                                                   \
     X(Uniform1f, PFNGLUNIFORM1FPROC)                                                                                           \
     X(Uniform1i, PFNGLUNIFORM1IPROC)                                                                                           \
+    X(Uniform2fv, PFNGLUNIFORM2FVPROC)                                                                                         \
     X(Uniform3fv, PFNGLUNIFORM3FVPROC)                                                                                         \
     X(Uniform4fv, PFNGLUNIFORM4FVPROC)                                                                                         \
     X(UniformMatrix4fv, PFNGLUNIFORMMATRIX4FVPROC)                                                                             \

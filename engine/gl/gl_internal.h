@@ -3,7 +3,6 @@
 #define ENFILADE_GL_INTERNAL_H
 
 #include "gl/gl_functions.h"
-#include "gl/lights.h"
 #include "gl/shader.h"
 
 /** A buffer read by texelFetch. */
@@ -11,26 +10,21 @@ typedef struct EnfGlTable {
     GLuint buffer, texture;
 } EnfGlTable;
 
-/** Light that comes from nowhere: hemisphere and a direction that tells walls apart. */
-typedef struct EnfGlAmbient {
-    float ground[3], sky[3], key[3];
-} EnfGlAmbient;
-
 struct EnfGl {
     EnfGlFunctions f;
     const EnfMap *map;
     GLint max_table, max_texture; /**< limits of the driver */
-    GLuint vertex_array, vertex_buffer, light_list_buffer, index_buffer;
+    GLuint vertex_array, vertex_buffer, light_buffer, light_uv_buffer, index_buffer;
     GLuint line_array, line_buffer;
-    EnfGlTable offsets, lights, light_planes, clusters;
-    uint32_t light_features;    /**< ENF_GL_LIGHTS … */
+    EnfGlTable offsets, clusters;
+    GLuint light_map;           /**< 0: all light is at the vertices */
+    float light_map_scale[2];   /**< 1/32 texel → texture coordinates */
     float (*offset_staging)[4]; /**< a cell; only those of the list drawn are current */
     GLsizei *counts;            /**< a cluster: arguments of a multi-draw */
     const void **starts;
     GLuint *images;   /**< a texture for each image of the map */
     GLuint *samplers; /**< a sampler for each texture of the map */
     GLuint white;     /**< one white texel, for materials without texture */
-    EnfGlAmbient ambient;
     EnfGlProgram programs[ENF_GL_PROGRAM_COUNT];
 };
 

@@ -9,10 +9,10 @@
 
 enum { LIGHT_LIMIT = 1 << 24, PLANE_LIMIT = 1 << 26 }; /* bits of a list and of EnfGlLight.windows */
 
-static const float WINDOW_SOFT = 0.05f; /* half the width of a window's soft edge, metres */
-static const float MIDDLE = 0.75f;      /* what the median lit cluster gets, facing its lights */
-static const float FAINTEST = 0.015f;   /* where a light may fade out: below a step of a dark picture */
-static const double FAR = 16384.0;      /* metres to a directional light */
+static const float WINDOW_SOFT = 0.125f; /* half the width of a window's soft edge, metres: half a texel of a light map */
+static const float MIDDLE = 0.75f;       /* what the median lit cluster gets, facing its lights */
+static const float FAINTEST = 0.015f;    /* where a light may fade out: below a step of a dark picture */
+static const double FAR = 16384.0;       /* metres to a directional light */
 
 typedef struct Builder {
     EnfGlLights *out;

@@ -35,17 +35,15 @@ static void set_program_view(EnfGl *gl, const EnfGlProgram *program, const EnfDr
     gl->f.UseProgram(program->name);
     gl->f.UniformMatrix4fv(program->clip_from_eye, 1, GL_FALSE, list->clip_from_eye);
     gl->f.Uniform3fv(program->eye_fraction, 1, list->eye_fraction);
-    gl->f.Uniform3fv(program->ground, 1, gl->ambient.ground);
-    gl->f.Uniform3fv(program->sky, 1, gl->ambient.sky);
-    gl->f.Uniform3fv(program->key, 1, gl->ambient.key);
+    gl->f.Uniform2fv(program->light_map_scale, 1, gl->light_map_scale);
 }
 
 void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list) {
     upload_offsets(gl, list);
     bind_table(gl, ENF_GL_UNIT_OFFSETS, &gl->offsets);
-    bind_table(gl, ENF_GL_UNIT_LIGHTS, &gl->lights);
-    bind_table(gl, ENF_GL_UNIT_PLANES, &gl->light_planes);
     bind_table(gl, ENF_GL_UNIT_CLUSTERS, &gl->clusters);
+    gl->f.ActiveTexture(GL_TEXTURE0 + ENF_GL_UNIT_LIGHT_MAP);
+    gl->f.BindTexture(GL_TEXTURE_2D, gl->light_map);
     for (int i = 0; i < ENF_GL_PROGRAM_LINES; i++) {
         if (gl->programs[i].name) {
             set_program_view(gl, &gl->programs[i], list);

@@ -17,9 +17,6 @@ typedef enum EnfGlProgramKind {
     ENF_GL_PROGRAM_COUNT
 } EnfGlProgramKind;
 
-/** What the lights of a map need of the lit variants; or-ed. */
-enum { ENF_GL_LIGHTS = 1, ENF_GL_WINDOWS = 2, ENF_GL_SPOTS = 4 };
-
 /** Uniforms that change, X(name): locations by name. */
 #define ENF_GL_UNIFORMS(X)                                                                                                     \
     X(clip_from_eye)                                                                                                           \
@@ -28,9 +25,7 @@ enum { ENF_GL_LIGHTS = 1, ENF_GL_WINDOWS = 2, ENF_GL_SPOTS = 4 };
     X(base_color)                                                                                                              \
     X(emissive)                                                                                                                \
     X(cutoff)                                                                                                                  \
-    X(ground)                                                                                                                  \
-    X(sky)                                                                                                                     \
-    X(key)                                                                                                                     \
+    X(light_map_scale)                                                                                                         \
     X(primitive_first)                                                                                                         \
     X(flat_color)
 
@@ -45,10 +40,9 @@ typedef struct EnfGlProgram {
 #define ENF_GL_UNITS(X)                                                                                                        \
     X(BASE, 0, "base_texture")                                                                                                 \
     X(EMISSIVE, 1, "emissive_texture")                                                                                         \
-    X(OFFSETS, 2, "cell_offsets")                                                                                              \
-    X(LIGHTS, 3, "lights")                                                                                                     \
-    X(PLANES, 4, "light_planes")                                                                                               \
-    X(CLUSTERS, 5, "clusters")
+    X(LIGHT_MAP, 2, "light_map")                                                                                               \
+    X(OFFSETS, 3, "cell_offsets")                                                                                              \
+    X(CLUSTERS, 4, "clusters")
 
 enum {
 #define ENF_GL_UNIT_ENUM(name, unit, sampler) ENF_GL_UNIT_##name = unit,
@@ -59,16 +53,16 @@ enum {
 /** Vertex attributes; LINES uses POSITION and COLOR. */
 enum {
     ENF_GL_ATTRIBUTE_POSITION,
-    ENF_GL_ATTRIBUTE_NORMAL,
     ENF_GL_ATTRIBUTE_UV,
     ENF_GL_ATTRIBUTE_COLOR,
     ENF_GL_ATTRIBUTE_CELL,
-    ENF_GL_ATTRIBUTE_LIGHT_LIST
+    ENF_GL_ATTRIBUTE_LIGHT,
+    ENF_GL_ATTRIBUTE_LIGHT_UV
 };
 
 /** Compiles and links the programs whose bits are set in `needed`; the others stay 0. SHADER with the driver's log. */
 EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint32_t needed,
-                                 uint32_t light_features, EnfError *error);
+                                 bool light_map, EnfError *error);
 void enf_gl_programs_destroy(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT]);
 
 #endif

@@ -1,8 +1,11 @@
-/* Makes the buffers of a map: vertices and indices as the file has them, each vertex's list of lights, and the tables
- * that shaders read by texelFetch. */
+/* Makes the buffers of a map: vertices and indices as the file has them, their light, and the tables that shaders read by
+ * texelFetch. */
 #include <string.h>
 
+#include "gl/bake.h"
 #include "gl/gl_internal.h"
+
+enum { LIGHT_MAP_MAX = 2048 }; /* texels a side: coordinates are 16 bits of 1/32 texel */
 
 /* ---- tables ----------------------------------------------------------------------------------------------------- */
 
@@ -55,41 +58,45 @@ static EnfResult create_cluster_table(EnfGl *gl, EnfError *error) {
     return result;
 }
 
-/* ---- lights ----------------------------------------------------------------------------------------------------- */
+/* ---- light ------------------------------------------------------------------------------------------------------ */
 
-/* Gives each vertex the list of its cluster. A vertex that two clusters share takes the last one's list if the lists
- * differ: `flat` inputs come from one vertex of a triangle, so the choice is the same whatever is culled. */
-static EnfResult upload_light_lists(EnfGl *gl, const EnfGlLights *lights, EnfError *error) {
-    const EnfMap *map = gl->map;
-    uint32_t *lists = enf_alloc(NULL, (size_t)map->vertices_count + 1, sizeof *lists);
-    if (!lists) {
-        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the lights of vertices");
-    }
-    for (uint32_t c = 0; c < map->clusters_count; c++) {
-        const EnfCluster *cluster = &map->clusters[c];
-        for (uint32_t i = 0; i < cluster->vertex_count; i++) {
-            lists[cluster->vertex_first + i] = lights->cluster_lists[c];
-        }
-    }
-    gl->f.GenBuffers(1, &gl->light_list_buffer);
-    gl->f.BindBuffer(GL_ARRAY_BUFFER, gl->light_list_buffer);
-    gl->f.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((map->vertices_count + 1) * sizeof *lists), lists, GL_STATIC_DRAW);
-    enf_free(NULL, lists, (size_t)map->vertices_count + 1, sizeof *lists);
-    return enf_gl_check(gl, "the lights of vertices", error);
+static void create_light_map(EnfGl *gl, const EnfGlBake *bake) {
+    const EnfGlFunctions *f = &gl->f;
+    f->ActiveTexture(GL_TEXTURE0);
+    f->GenTextures(1, &gl->light_map);
+    f->BindTexture(GL_TEXTURE_2D, gl->light_map);
+    f->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, (GLsizei)bake->width, (GLsizei)bake->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                  bake->texels);
+    f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    f->BindTexture(GL_TEXTURE_2D, 0);
+    gl->light_map_scale[0] = 1.0f / (32.0f * (float)bake->width);
+    gl->light_map_scale[1] = 1.0f / (32.0f * (float)bake->height);
 }
 
-static EnfResult upload_lights(EnfGl *gl, EnfError *error) {
-    EnfGlLights lights;
-    EnfResult result = enf_gl_lights_build(&lights, gl->map, error);
-    TableData records = {"lights", GL_RGBA32UI, lights.lights, (size_t)lights.light_count * 3, 16};
-    TableData planes = {"light windows", GL_RGBA32F, lights.planes, lights.plane_count, 16};
-    gl->light_features = (gl->map->lights_count ? ENF_GL_LIGHTS : 0u) | (lights.has_windows ? ENF_GL_WINDOWS : 0u) |
-                         (lights.has_spots ? ENF_GL_SPOTS : 0u);
-    if (result == ENF_OK && (result = create_table(gl, &gl->lights, &records, error)) == ENF_OK &&
-        (result = create_table(gl, &gl->light_planes, &planes, error)) == ENF_OK) {
-        result = upload_light_lists(gl, &lights, error);
+static void create_array_buffer(EnfGl *gl, GLuint *name, const void *data, size_t size) {
+    gl->f.GenBuffers(1, name);
+    gl->f.BindBuffer(GL_ARRAY_BUFFER, *name);
+    gl->f.BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, data, GL_STATIC_DRAW);
+}
+
+static EnfResult upload_light(EnfGl *gl, EnfError *error) {
+    EnfGlBake bake;
+    uint32_t max_size = gl->max_texture < LIGHT_MAP_MAX ? (uint32_t)gl->max_texture : (uint32_t)LIGHT_MAP_MAX;
+    EnfResult result = enf_gl_bake_build(&bake, gl->map, max_size, error);
+    if (result == ENF_OK) {
+        size_t vertices = (size_t)bake.vertex_count + 1;
+        create_array_buffer(gl, &gl->light_buffer, bake.vertex_light, vertices * sizeof *bake.vertex_light);
+        create_array_buffer(gl, &gl->light_uv_buffer, bake.vertex_uv, vertices * sizeof *bake.vertex_uv);
+        if (bake.has_charts) {
+            create_light_map(gl, &bake);
+        }
+        result = enf_gl_check(gl, "the light of this map", error);
     }
-    enf_gl_lights_free(&lights);
+    enf_gl_bake_free(&bake);
     return result;
 }
 
@@ -104,13 +111,14 @@ static void set_attributes(EnfGl *gl) {
     const GLsizei stride = sizeof(EnfVertex);
     f->BindBuffer(GL_ARRAY_BUFFER, gl->vertex_buffer);
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, position)));
-    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_NORMAL, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride, at(offsetof(EnfVertex, normal)));
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_UV, 2, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, uv)));
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(EnfVertex, color)));
     f->VertexAttribIPointer(ENF_GL_ATTRIBUTE_CELL, 1, GL_UNSIGNED_INT, stride, at(offsetof(EnfVertex, cell)));
-    f->BindBuffer(GL_ARRAY_BUFFER, gl->light_list_buffer);
-    f->VertexAttribIPointer(ENF_GL_ATTRIBUTE_LIGHT_LIST, 1, GL_UNSIGNED_INT, sizeof(uint32_t), at(0));
-    for (GLuint i = ENF_GL_ATTRIBUTE_POSITION; i <= ENF_GL_ATTRIBUTE_LIGHT_LIST; i++) {
+    f->BindBuffer(GL_ARRAY_BUFFER, gl->light_buffer);
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_LIGHT, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(uint32_t), at(0));
+    f->BindBuffer(GL_ARRAY_BUFFER, gl->light_uv_buffer);
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_LIGHT_UV, 2, GL_UNSIGNED_SHORT, GL_FALSE, 2 * sizeof(uint16_t), at(0));
+    for (GLuint i = ENF_GL_ATTRIBUTE_POSITION; i <= ENF_GL_ATTRIBUTE_LIGHT_UV; i++) {
         f->EnableVertexAttribArray(i);
     }
 }
@@ -158,7 +166,7 @@ EnfResult enf_gl_upload_geometry(EnfGl *gl, EnfError *error) {
     TableData offsets = {"cells", GL_RGBA32F, gl->offset_staging, map->cells_count, sizeof *gl->offset_staging};
     EnfResult result;
     if ((result = create_table(gl, &gl->offsets, &offsets, error)) != ENF_OK ||
-        (result = create_cluster_table(gl, error)) != ENF_OK || (result = upload_lights(gl, error)) != ENF_OK ||
+        (result = create_cluster_table(gl, error)) != ENF_OK || (result = upload_light(gl, error)) != ENF_OK ||
         (result = upload_vertices(gl, error)) != ENF_OK) {
         return result;
     }
@@ -168,13 +176,12 @@ EnfResult enf_gl_upload_geometry(EnfGl *gl, EnfError *error) {
 
 void enf_gl_free_geometry(EnfGl *gl) {
     const EnfMap *map = gl->map;
-    const GLuint buffers[] = {gl->vertex_buffer, gl->light_list_buffer, gl->index_buffer, gl->line_buffer};
+    const GLuint buffers[] = {gl->vertex_buffer, gl->light_buffer, gl->light_uv_buffer, gl->index_buffer, gl->line_buffer};
     const GLuint arrays[] = {gl->vertex_array, gl->line_array};
     gl->f.DeleteVertexArrays(2, arrays);
-    gl->f.DeleteBuffers(4, buffers);
+    gl->f.DeleteBuffers(5, buffers);
     free_table(gl, &gl->offsets);
-    free_table(gl, &gl->lights);
-    free_table(gl, &gl->light_planes);
+    gl->f.DeleteTextures(1, &gl->light_map);
     free_table(gl, &gl->clusters);
     enf_free(NULL, gl->offset_staging, (size_t)map->cells_count + 1, sizeof *gl->offset_staging);
     enf_free(NULL, gl->counts, (size_t)map->clusters_count + 1, sizeof *gl->counts);
