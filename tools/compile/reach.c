@@ -16,7 +16,7 @@
 static const double IN_FRONT = 1.0 / 64.0;
 /* Large triangles are looked at piece by piece: pieces of this size (metres), halved at most so often. */
 static const double PIECE = 1.25;
-enum { HALVINGS = 6, POINTS_MAX = 512, CANDIDATES = 32 };
+enum { HALVINGS = 6, CANDIDATES = 32 };
 
 typedef struct Gate {
     EnfVec3 normal;
@@ -25,21 +25,32 @@ typedef struct Gate {
     bool walkable; /* a polygon without a transform */
 } Gate;
 
+/* One triangle of a query. */
+typedef struct Sheet {
+    EnfVec3 p[3], normal;
+    EnfBox3 box; /* of its corners */
+    uint32_t home;
+    bool both;  /* seen from behind too, or by nobody knows whom */
+    bool loose; /* belongs to no room by its author's word, so its home has no claim on it */
+} Sheet;
+
 struct EnfReach {
     EnfSpace space;
     Gate *gates;
     uint32_t *cells; /* scratch: a queue, and what the tree found */
     uint32_t *near;
     uint32_t *stamp; /* by cell: the query that listed it last */
+    ENF_ARRAY(Sheet) sheets;
+    ENF_ARRAY(EnfVec3) points;
     uint32_t query;
 };
 
 typedef struct Query {
     EnfReach *reach;
-    const uint32_t *triangles;
+    const Sheet *sheets;
     uint32_t count;
-    EnfBox3 box;
-    uint32_t listed; /* how many of reach->cells */
+    EnfBox3 box, eyes; /* of the corners; of the points from which the surfaces are seen as well */
+    uint32_t listed;   /* how many of reach->cells */
 } Query;
 
 EnfReach *enf_reach_create(const EnfLayout *layout, const struct EnfSoup *soup) {
@@ -83,6 +94,8 @@ void enf_reach_destroy(EnfReach *reach) {
         free(reach->cells);
         free(reach->near);
         free(reach->stamp);
+        free(reach->sheets.data);
+        free(reach->points.data);
         free(reach);
     }
 }
@@ -178,13 +191,7 @@ static bool passes(const Query *query, uint32_t p) {
         return false;
     }
     for (uint32_t i = 0; i < query->count; i++) {
-        EnfVec3 corners[3];
-        EnfBox3 box = enf_box3_empty();
-        enf_soup_corners(reach->space.soup, query->triangles[i], corners);
-        for (int k = 0; k < 3; k++) {
-            box = enf_box3_add(box, corners[k]);
-        }
-        if (enf_box3_overlaps(box, gate) && triangle_passes(reach, p, corners)) {
+        if (enf_box3_overlaps(query->sheets[i].box, gate) && triangle_passes(reach, p, query->sheets[i].p)) {
             return true;
         }
     }
@@ -192,15 +199,6 @@ static bool passes(const Query *query, uint32_t p) {
 }
 
 /* ---- through walls --------------------------------------------------------------------------------------------------------- */
-
-/* One triangle on its way through the candidates. */
-typedef struct Sheet {
-    Query *query;
-    uint32_t home;
-    EnfVec3 normal;
-    bool both;  /* seen from behind too, or by nobody knows whom */
-    bool loose; /* belongs to no room by its author's word, so its home has no claim on it */
-} Sheet;
 
 static bool list(EnfReach *reach, uint32_t cell, uint32_t *count) {
     if (cell >= reach->space.cell_count || reach->stamp[cell] == reach->query) {
@@ -224,22 +222,22 @@ static bool seen_from(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 norma
 
 /* Looks at one side of a small piece. Whoever stands there in its own room is in no other: where rooms overlap, a link shows the one
  * with the other anyway. */
-static void look(const Sheet *sheet, EnfVec3 centre, EnfVec3 normal, const uint32_t *cells, uint32_t count) {
-    EnfReach *reach = sheet->query->reach;
+static void look(Query *query, const Sheet *sheet, EnfVec3 centre, EnfVec3 normal, const uint32_t *cells, uint32_t count) {
+    EnfReach *reach = query->reach;
     EnfShells *shells = &reach->space.shells;
     if (!sheet->loose && sheet->home < reach->space.cell_count && seen_from(shells, sheet->home, centre, normal)) {
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!is_listed(reach, cells[i]) && seen_from(shells, cells[i], centre, normal)) {
-            list(reach, cells[i], &sheet->query->listed);
+            list(reach, cells[i], &query->listed);
         }
     }
 }
 
 /* Which of the cells come near a triangle, or near its front? */
-static uint32_t keep_near(const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, uint32_t *out) {
-    const EnfReach *reach = sheet->query->reach;
+static uint32_t keep_near(const Query *query, const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, uint32_t *out) {
+    const EnfReach *reach = query->reach;
     EnfVec3 around[6];
     uint32_t kept = 0;
     for (int k = 0; k < 3; k++) {
@@ -256,8 +254,8 @@ static uint32_t keep_near(const Sheet *sheet, const EnfVec3 p[3], const uint32_t
 }
 
 /* A cell without a surface near a piece holds the whole of it or nothing: one look settles that. Keeps the other cells. */
-static uint32_t settle_uniform(const Sheet *sheet, const EnfVec3 p[3], uint32_t *cells, uint32_t count) {
-    EnfReach *reach = sheet->query->reach;
+static uint32_t settle_uniform(Query *query, const Sheet *sheet, const EnfVec3 p[3], uint32_t *cells, uint32_t count) {
+    EnfReach *reach = query->reach;
     EnfShells *shells = &reach->space.shells;
     EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
     EnfBox3 box = grown(enf_box3_add(enf_box3_add(enf_box3_add(enf_box3_empty(), p[0]), p[1]), p[2]), 2.0 * IN_FRONT);
@@ -267,17 +265,18 @@ static uint32_t settle_uniform(const Sheet *sheet, const EnfVec3 p[3], uint32_t 
             cells[kept++] = cells[i];
         } else if (seen_from(shells, cells[i], centre, sheet->normal) ||
                    (sheet->both && seen_from(shells, cells[i], centre, enf_scale(sheet->normal, -1.0)))) {
-            list(reach, cells[i], &sheet->query->listed);
+            list(reach, cells[i], &query->listed);
         }
     }
     return kept;
 }
 
 /* Looks at a triangle piece by piece. */
-static void look_at_pieces(const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, int halvings) {
+static void look_at_pieces(Query *query, const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count,
+                           int halvings) {
     uint32_t near[CANDIDATES];
-    uint32_t near_count = keep_near(sheet, p, cells, count, near);
-    near_count = settle_uniform(sheet, p, near, near_count);
+    uint32_t near_count = keep_near(query, sheet, p, cells, count, near);
+    near_count = settle_uniform(query, sheet, p, near, near_count);
     if (near_count == 0) {
         return;
     }
@@ -287,71 +286,51 @@ static void look_at_pieces(const Sheet *sheet, const EnfVec3 p[3], const uint32_
     if (size > 3.0 * PIECE && halvings > 0) {
         const EnfVec3 parts[4][3] = {{p[0], ab, ca}, {ab, p[1], bc}, {ca, bc, p[2]}, {ab, bc, ca}};
         for (int i = 0; i < 4; i++) {
-            look_at_pieces(sheet, parts[i], near, near_count, halvings - 1);
+            look_at_pieces(query, sheet, parts[i], near, near_count, halvings - 1);
         }
         return;
     }
     EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
-    look(sheet, centre, sheet->normal, near, near_count);
+    look(query, sheet, centre, sheet->normal, near, near_count);
     if (sheet->both) {
-        look(sheet, centre, enf_scale(sheet->normal, -1.0), near, near_count);
+        look(query, sheet, centre, enf_scale(sheet->normal, -1.0), near, near_count);
     }
 }
 
 /* Lists the cells, of at most CANDIDATES, that a triangle reaches into. */
-static void look_at_triangle(Query *query, uint32_t triangle, const uint32_t *cells, uint32_t count) {
+static void look_at_triangle(Query *query, const Sheet *sheet, const uint32_t *cells, uint32_t count) {
     EnfSpace *space = &query->reach->space;
-    const EnfSoupTriangle *record = &space->soup->triangles[triangle];
-    EnfVec3 p[3];
     uint32_t near[CANDIDATES];
-    enf_soup_corners(space->soup, triangle, p);
-    Sheet sheet = {.query = query, .home = record->cell};
-    sheet.normal = enf_normalize(enf_cross(enf_sub(p[1], p[0]), enf_sub(p[2], p[0])));
-    sheet.loose = space->layout->node_cells[record->node] == ENF_NONE;
-    sheet.both = sheet.loose || (space->faces[record->material] & ENF_FACE_TWO_SIDED);
-    uint32_t near_count = keep_near(&sheet, p, cells, count, near);
+    uint32_t near_count = keep_near(query, sheet, sheet->p, cells, count, near);
     for (uint32_t i = 0; i < near_count; i++) {
         for (int k = 0; k < 3 && !is_listed(query->reach, near[i]); k++) {
-            if (enf_shell_inside(&space->shells, near[i], p[k], SURFACE, false)) {
+            if (enf_shell_inside(&space->shells, near[i], sheet->p[k], SURFACE, false)) {
                 list(query->reach, near[i], &query->listed);
             }
         }
     }
-    look_at_pieces(&sheet, p, near, near_count, HALVINGS);
-}
-
-/* The cheap test for the whole set: most sets end at the walls that they share with the cell. */
-static bool is_set_near(const Query *query, uint32_t cell) {
-    EnfSpace *space = &query->reach->space;
-    EnfVec3 points[POINTS_MAX];
-    uint32_t used = 0;
-    for (uint32_t i = 0; i < query->count; i++) {
-        enf_soup_corners(space->soup, query->triangles[i], &points[used]);
-        used += 3;
-        if (used + 3 > POINTS_MAX || i + 1 == query->count) {
-            /* Less than the distance at which surfaces are looked at: a wall shared by two rooms is near both. */
-            if (enf_shell_near(&space->shells.cells[cell], points, used, -IN_FRONT)) {
-                return true;
-            }
-            used = 0;
-        }
+    if (near_count > 0) {
+        look_at_pieces(query, sheet, sheet->p, near, near_count, HALVINGS);
     }
-    return false;
 }
 
+/* Most sets end at the walls that they share with the other cell: the box, with the points from which they are seen, tells. */
 static void reach_through_walls(Query *query) {
     EnfReach *reach = query->reach;
     EnfKdTree tree = enf_kd_tree(&reach->space.tree);
-    uint32_t found = enf_kd_overlap(&tree, enf_box3f_outward(query->box), reach->near, reach->space.cell_count), count = 0;
+    uint32_t found = enf_kd_overlap(&tree, enf_box3f_outward(query->eyes), reach->near, reach->space.cell_count), count = 0;
     for (uint32_t i = 0; i < found; i++) {
-        if (!is_listed(reach, reach->near[i]) && is_set_near(query, reach->near[i])) {
+        const EnfShell *shell = &reach->space.shells.cells[reach->near[i]];
+        bool near = !is_listed(reach, reach->near[i]) && enf_shell_near_box(shell, query->eyes, SURFACE) &&
+                    enf_shell_near(shell, reach->points.data, reach->points.count, SURFACE);
+        if (near) {
             reach->near[count++] = reach->near[i];
         }
     }
     for (uint32_t first = 0; first < count; first += CANDIDATES) {
         uint32_t some = count - first < CANDIDATES ? count - first : CANDIDATES;
         for (uint32_t i = 0; i < query->count; i++) {
-            look_at_triangle(query, query->triangles[i], &reach->near[first], some);
+            look_at_triangle(query, &query->sheets[i], &reach->near[first], some);
         }
     }
 }
@@ -376,14 +355,61 @@ static int compare_u32(const void *pa, const void *pb) {
     return (*a > *b) - (*a < *b);
 }
 
+static void add_point(Query *query, EnfVec3 p) {
+    EnfReach *reach = query->reach;
+    reach->points.data[reach->points.count++] = p;
+    query->eyes = enf_box3_add(query->eyes, p);
+}
+
+/* Corners, normals and the points in front. @return false if memory is out. */
+static bool prepare(Query *query, const uint32_t *triangles, uint32_t count) {
+    EnfReach *reach = query->reach;
+    const EnfSpace *space = &reach->space;
+    reach->sheets.count = reach->points.count = 0;
+    if (!ENF_ARRAY_ROOM(&reach->sheets, count) || !ENF_ARRAY_ROOM(&reach->points, 9 * (uint64_t)count)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const EnfSoupTriangle *record = &space->soup->triangles[triangles[i]];
+        Sheet *sheet = &reach->sheets.data[i];
+        *sheet = (Sheet){.home = record->cell, .box = enf_box3_empty()};
+        enf_soup_corners(space->soup, triangles[i], sheet->p);
+        sheet->normal = enf_normalize(enf_cross(enf_sub(sheet->p[1], sheet->p[0]), enf_sub(sheet->p[2], sheet->p[0])));
+        sheet->loose = space->layout->node_cells[record->node] == ENF_NONE;
+        sheet->both = sheet->loose || (space->faces[record->material] & ENF_FACE_TWO_SIDED);
+        EnfVec3 step = enf_scale(sheet->normal, IN_FRONT);
+        for (int k = 0; k < 3; k++) {
+            sheet->box = enf_box3_add(sheet->box, sheet->p[k]);
+            add_point(query, sheet->p[k]);
+            add_point(query, enf_add(sheet->p[k], step));
+            if (sheet->both) {
+                add_point(query, enf_sub(sheet->p[k], step));
+            }
+        }
+        query->box = enf_box3_union(query->box, sheet->box);
+    }
+    query->sheets = reach->sheets.data;
+    query->count = count;
+    return true;
+}
+
+/* Every other cell: what is answered where memory is out, so that nothing is lost. */
+static uint32_t everywhere(const EnfReach *reach, uint32_t home, uint32_t *out, uint32_t capacity) {
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < reach->space.cell_count && count < capacity; c++) {
+        if (c != home) {
+            out[count++] = c;
+        }
+    }
+    return count;
+}
+
 uint32_t enf_reach_query(const EnfReach *constant, const uint32_t *triangles, uint32_t triangle_count, uint32_t cell,
                          uint32_t *out, uint32_t capacity) {
     EnfReach *reach = (EnfReach *)(uintptr_t)constant; /* its scratch, and trees made when needed: one thread at a time */
-    Query query = {reach, triangles, triangle_count, enf_box3_empty(), 0};
-    for (uint32_t i = 0; i < triangle_count; i++) {
-        EnfVec3 p[3];
-        enf_soup_corners(reach->space.soup, triangles[i], p);
-        query.box = enf_box3_add(enf_box3_add(enf_box3_add(query.box, p[0]), p[1]), p[2]);
+    Query query = {.reach = reach, .box = enf_box3_empty(), .eyes = enf_box3_empty()};
+    if (!prepare(&query, triangles, triangle_count)) {
+        return everywhere(reach, cell, out, capacity);
     }
     reach->query++;
     uint32_t first = list(reach, cell, &query.listed) ? 1 : 0; /* home is not reached, it is home */

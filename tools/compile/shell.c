@@ -19,6 +19,19 @@ static const EnfVec3 rays[ENF_SHELL_RAYS] = {
     {-0.57955198891207, 0.47684293997059, 0.66086330110566}, {0.57955198891207, -0.47684293997059, -0.66086330110566},
     {0.22385972303414, -0.68659047733549, 0.69172273407435}, {-0.22385972303414, 0.68659047733549, -0.69172273407435}};
 
+static double least(double a, double b) {
+    return a < b ? a : b;
+}
+
+static double most(double a, double b) {
+    return a > b ? a : b;
+}
+
+static void grow_box(EnfBox3 *box, EnfVec3 p) {
+    box->min = enf_v3(least(box->min.x, p.x), least(box->min.y, p.y), least(box->min.z, p.z));
+    box->max = enf_v3(most(box->max.x, p.x), most(box->max.y, p.y), most(box->max.z, p.z));
+}
+
 typedef struct AxisVotes {
     EnfVec3 axis[AXIS_CANDIDATES];
     double area[AXIS_CANDIDATES];
@@ -43,7 +56,7 @@ static void count_triangles(EnfShells *shells, uint32_t triangle_count, EnfShell
         EnfShell *shell = &shells->cells[cell];
         shell->count++;
         for (int k = 0; k < 3; k++) {
-            shell->box = enf_box3_add(shell->box, p[k]);
+            grow_box(&shell->box, p[k]);
         }
     }
     for (uint32_t c = 0; c < shells->cell_count; c++) {
@@ -73,9 +86,13 @@ static void fill_triangles(EnfShells *shells, uint32_t triangle_count, EnfShellT
     }
 }
 
+/* Directions along the coordinates need no slab: the box has them. */
 static void vote(AxisVotes *votes, EnfVec3 area) {
     double size = enf_length(area);
-    EnfVec3 n = enf_normalize(area);
+    EnfVec3 n = enf_scale(area, size > 0.0 ? 1.0 / size : 0.0);
+    if (most(most(n.x * n.x, n.y * n.y), n.z * n.z) > 0.9999) {
+        return;
+    }
     for (uint32_t i = 0; i < votes->count; i++) {
         double cosine = enf_dot(n, votes->axis[i]);
         if (cosine > 0.9999 || cosine < -0.9999) {
@@ -210,7 +227,7 @@ static double try_triangle(void *user, uint32_t item, double t_max) {
 static EnfBox3 triangle_box(const EnfShells *shells, uint32_t triangle) {
     EnfBox3 box = enf_box3_empty();
     for (int k = 0; k < 3; k++) {
-        box = enf_box3_add(box, corner(shells, triangle, k));
+        grow_box(&box, corner(shells, triangle, k));
     }
     return box;
 }
@@ -293,21 +310,26 @@ static bool in_bound(const EnfShell *shell, EnfVec3 p, double depth) {
     return true;
 }
 
+bool enf_shell_near_box(const EnfShell *shell, EnfBox3 box, double depth) {
+    return box.min.x <= shell->box.max.x - depth && box.max.x >= shell->box.min.x + depth &&
+           box.min.y <= shell->box.max.y - depth && box.max.y >= shell->box.min.y + depth &&
+           box.min.z <= shell->box.max.z - depth && box.max.z >= shell->box.min.z + depth;
+}
+
 bool enf_shell_near(const EnfShell *shell, const EnfVec3 *points, uint32_t count, double depth) {
-    EnfBox3 box = enf_box3_empty();
+    EnfBox3 box = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
     for (uint32_t i = 0; i < count; i++) {
-        box = enf_box3_add(box, points[i]);
+        grow_box(&box, points[i]);
     }
-    if (box.min.x > shell->box.max.x - depth || box.max.x < shell->box.min.x + depth || box.min.y > shell->box.max.y - depth ||
-        box.max.y < shell->box.min.y + depth || box.min.z > shell->box.max.z - depth || box.max.z < shell->box.min.z + depth) {
+    if (!enf_shell_near_box(shell, box, depth)) {
         return false;
     }
     for (uint32_t a = 0; a < shell->axis_count && shell->bound_count == 0; a++) {
         double low = DBL_MAX, high = -DBL_MAX;
         for (uint32_t i = 0; i < count; i++) {
             double d = enf_dot(shell->axes[a], enf_sub(points[i], shell->origin));
-            low = d < low ? d : low;
-            high = d > high ? d : high;
+            low = least(low, d);
+            high = most(high, d);
         }
         if (low > shell->high[a] - depth || high < shell->low[a] + depth) {
             return false;

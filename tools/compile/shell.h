@@ -60,6 +60,7 @@ uint32_t enf_shell_overlap(EnfShells *shells, uint32_t cell, EnfBox3 box, uint32
 bool enf_shell_touches(EnfShells *shells, uint32_t cell, EnfBox3 box);
 
 /** Could a point of `points` lie deeper than `depth` inside the cell? False is certain; cheap. */
+bool enf_shell_near_box(const EnfShell *shell, EnfBox3 box, double depth); /**< of points with this box; cheaper still */
 bool enf_shell_near(const EnfShell *shell, const EnfVec3 *points, uint32_t count, double depth);
 
 /** Is p inside the cell, and farther than `depth` from its surfaces? Most of six fixed rays must see fronts; `sure`: none may see
