@@ -118,6 +118,10 @@ void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *befo
     }
 }
 
+bool enf_dbv_failed(const EnfDbvIndex *index) {
+    return index->failed;
+}
+
 EnfDbvCounters enf_dbv_frame_counters(const EnfDbvIndex *index) {
     return index->counters;
 }

@@ -4,27 +4,23 @@
 
 #include <string.h>
 
-static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell)
-{
+static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell) {
     const double *o = map->cells[cell].origin;
     return enf_v3(o[0], o[1], o[2]);
 }
 
-static EnfBox3f cell_bounds(const EnfMap *map, uint32_t cell)
-{
+static EnfBox3f cell_bounds(const EnfMap *map, uint32_t cell) {
     const EnfCell *c = &map->cells[cell];
     EnfBox3f box = {{c->min[0], c->min[1], c->min[2]}, {c->max[0], c->max[1], c->max[2]}};
     return box;
 }
 
-static bool add_plain_visit(EnfVis *vis, uint32_t cell, uint32_t space, EnfWindow window)
-{
+static bool add_plain_visit(EnfVis *vis, uint32_t cell, uint32_t space, EnfWindow window) {
     EnfVisit visit = {cell, space, ENF_NONE, ENF_NONE, window, ENF_NONE};
     return enf_vis_add_visit(vis, visit) != ENF_NONE;
 }
 
-bool enf_vis_list_all(EnfVis *vis)
-{
+bool enf_vis_list_all(EnfVis *vis) {
     EnfWindow window = enf_window_full(&vis->cameras[0]);
     bool ok = true;
     for (uint32_t cell = 0; cell < vis->map->cells_count && ok; cell++) {
@@ -34,15 +30,13 @@ bool enf_vis_list_all(EnfVis *vis)
 }
 
 /* The root box of the cells' tree, in its own space. */
-static EnfBox3f tree_bounds(const EnfMap *map)
-{
+static EnfBox3f tree_bounds(const EnfMap *map) {
     const EnfKdNode *root = map->cell_nodes;
     EnfBox3f box = {{root->min[0], root->min[1], root->min[2]}, {root->max[0], root->max[1], root->max[2]}};
     return box;
 }
 
-bool enf_vis_list_frustum(EnfVis *vis, uint32_t space, EnfWindow window)
-{
+bool enf_vis_list_frustum(EnfVis *vis, uint32_t space, EnfWindow window) {
     const EnfMap *map = vis->map;
     bool ok = true;
     if (map->cell_nodes_count > 0) {
@@ -66,27 +60,34 @@ bool enf_vis_list_frustum(EnfVis *vis, uint32_t space, EnfWindow window)
     return ok;
 }
 
-/* Clusters of one cell that its visit's window may show, into vis->items. */
-static uint32_t query_visit(EnfVis *vis, const EnfVisit *visit, bool everything)
-{
-    EnfKdTree tree = enf_map_cell_tree(vis->map, visit->cell);
-    if (everything) {
-        uint32_t count = 0;
-        for (uint32_t i = 0; i < tree.block_count * ENF_KD_BLOCK; i++) {
-            uint32_t item = tree.blocks[i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
-            if (item != ENF_NONE) {
-                vis->items[count++] = item;
-            }
+static uint32_t whole_tree(EnfVis *vis, const EnfKdTree *tree) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < tree->block_count * ENF_KD_BLOCK; i++) {
+        uint32_t item = tree->blocks[i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
+        if (item != ENF_NONE) {
+            vis->items[count++] = item;
         }
-        return count;
     }
-    if (tree.node_count == 0) {
-        return 0;
+    return count;
+}
+
+/* Clusters of one cell that its visit's window may show, into vis->items; and exposes the moving objects it shows. */
+static uint32_t query_visit(EnfVis *vis, const EnfView *view, const EnfVisit *visit) {
+    EnfKdTree tree = enf_map_cell_tree(vis->map, visit->cell);
+    bool everything = view->cull == ENF_CULL_NONE;
+    if (view->dbv == NULL && (everything || tree.node_count == 0)) {
+        return whole_tree(vis, &tree);
     }
     EnfPyramid pyramid;
     const EnfWindowPolygon *polygon = visit->polygon == ENF_NONE ? NULL : &vis->polygons[visit->polygon];
     enf_pyramid(&vis->cameras[visit->space], visit->window, polygon, cell_origin(vis->map, visit->cell),
                 cell_bounds(vis->map, visit->cell), &pyramid);
+    if (view->dbv != NULL) {
+        enf_dbv_see(view->dbv, visit->cell, &pyramid);
+    }
+    if (everything) {
+        return whole_tree(vis, &tree);
+    }
     EnfKdCounters counters = {0, 0, 0};
     uint32_t count = enf_kd_query(&tree, &pyramid, vis->items, vis->items_capacity, &counters);
     vis->set.counters.kd_nodes += counters.nodes;
@@ -94,22 +95,20 @@ static uint32_t query_visit(EnfVis *vis, const EnfVisit *visit, bool everything)
     return count;
 }
 
-static void append(EnfVis *vis, uint32_t cluster, uint32_t space, uint32_t visit)
-{
+static void append(EnfVis *vis, uint32_t cluster, uint32_t space, uint32_t visit) {
     EnfVisEntry entry = {cluster, space, visit};
     vis->entries[vis->entry_count++] = entry;
 }
 
 /* Marks the clusters of every visit in `space`, then lists them once each in ascending order. */
-static bool collect_objects(EnfVis *vis, uint32_t space, bool everything)
-{
+static bool collect_objects(EnfVis *vis, const EnfView *view, uint32_t space) {
     uint32_t found = 0;
     for (uint32_t v = 0; v < vis->visit_count; v++) {
         const EnfVisit *visit = &vis->visits[v];
         if (visit->space != space) {
             continue;
         }
-        uint32_t count = query_visit(vis, visit, everything);
+        uint32_t count = query_visit(vis, view, visit);
         for (uint32_t i = 0; i < count; i++) {
             if (enf_bits_add(&vis->cluster_bits, vis->items[i])) {
                 vis->cluster_visit[vis->items[i]] = v;
@@ -136,8 +135,7 @@ static bool collect_objects(EnfVis *vis, uint32_t space, bool everything)
     return true;
 }
 
-static bool entry_less(const EnfVisEntry *a, const EnfVisEntry *b)
-{
+static bool entry_less(const EnfVisEntry *a, const EnfVisEntry *b) {
     if (a->space != b->space) {
         return a->space < b->space;
     }
@@ -145,8 +143,7 @@ static bool entry_less(const EnfVisEntry *a, const EnfVisEntry *b)
 }
 
 /* Heapsort: in place, no recursion, n log n at worst. Keys are distinct, so the order is unique. */
-static void sift(EnfVisEntry *entries, uint32_t root, uint32_t count)
-{
+static void sift(EnfVisEntry *entries, uint32_t root, uint32_t count) {
     EnfVisEntry moved = entries[root];
     for (uint32_t child = 2U * root + 1U; child < count; child = 2U * root + 1U) {
         if (child + 1U < count && entry_less(&entries[child], &entries[child + 1U])) {
@@ -161,8 +158,7 @@ static void sift(EnfVisEntry *entries, uint32_t root, uint32_t count)
     entries[root] = moved;
 }
 
-static void sort_entries(EnfVisEntry *entries, uint32_t count)
-{
+static void sort_entries(EnfVisEntry *entries, uint32_t count) {
     for (uint32_t i = count / 2U; i > 0; i--) {
         sift(entries, i - 1U, count);
     }
@@ -175,10 +171,9 @@ static void sort_entries(EnfVisEntry *entries, uint32_t count)
 }
 
 /* One entry for each (cluster, visit). */
-static bool collect_primitives(EnfVis *vis, bool everything)
-{
+static bool collect_primitives(EnfVis *vis, const EnfView *view) {
     for (uint32_t v = 0; v < vis->visit_count; v++) {
-        uint32_t count = query_visit(vis, &vis->visits[v], everything);
+        uint32_t count = query_visit(vis, view, &vis->visits[v]);
         if (!enf_vis_reserve_entries(vis, vis->entry_count + count)) {
             return false;
         }
@@ -195,16 +190,14 @@ static bool collect_primitives(EnfVis *vis, bool everything)
     return true;
 }
 
-bool enf_vis_collect(EnfVis *vis, const EnfView *view)
-{
-    bool everything = view->cull == ENF_CULL_NONE;
+bool enf_vis_collect(EnfVis *vis, const EnfView *view) {
     bool ok = true;
     vis->entry_count = 0;
     if (view->grain == ENF_GRAIN_PRIMITIVES) {
-        ok = collect_primitives(vis, everything);
+        ok = collect_primitives(vis, view);
     } else {
         for (uint32_t space = 0; space < vis->space_count && ok; space++) {
-            ok = collect_objects(vis, space, everything);
+            ok = collect_objects(vis, view, space);
         }
     }
     for (uint32_t v = 0; v < vis->visit_count; v++) {

@@ -28,20 +28,17 @@ typedef struct Pane {
     EnfWindowPolygon polygon;
 } Pane;
 
-static EnfVec3 eye_in_cell(const EnfMap *map, uint32_t cell, const EnfCamera *camera)
-{
+static EnfVec3 eye_in_cell(const EnfMap *map, uint32_t cell, const EnfCamera *camera) {
     const double *o = map->cells[cell].origin;
     return enf_sub(camera->eye_ws, enf_v3(o[0], o[1], o[2]));
 }
 
-static bool uses_polygons(const Walk *walk)
-{
+static bool uses_polygons(const Walk *walk) {
     return walk->view->window == ENF_WINDOW_POLYGON;
 }
 
 /* The eye as the far side of a portal with a transform sees it: positions move by p' = m p + t, directions by m. */
-static EnfCamera through(const EnfCamera *camera, const EnfTransform *record)
-{
+static EnfCamera through(const EnfCamera *camera, const EnfTransform *record) {
     EnfAffine affine;
     memcpy(affine.m, record->m, sizeof affine.m);
     affine.t = enf_v3(record->t[0], record->t[1], record->t[2]);
@@ -54,8 +51,7 @@ static EnfCamera through(const EnfCamera *camera, const EnfTransform *record)
 }
 
 /* The space behind `portal` seen from `space`; ENF_NONE beyond ENF_VIS_SPACES_MAX (mirrors facing mirrors, PITFALLS 20). */
-static uint32_t space_behind(EnfVis *vis, const EnfPortalState *state, uint32_t portal, uint32_t space)
-{
+static uint32_t space_behind(EnfVis *vis, const EnfPortalState *state, uint32_t portal, uint32_t space) {
     if (state->transform == ENF_NONE) {
         return space;
     }
@@ -77,8 +73,7 @@ static uint32_t space_behind(EnfVis *vis, const EnfPortalState *state, uint32_t 
 
 /* Is the eye certainly beyond the portal, so that it cannot be looked through from its source? Three-valued: within the slab it
  * is on neither side (PITFALLS 4). The start cell and bent portals have no facing test. */
-static bool faces_away(const Walk *walk, const EnfPortalState *state, EnfVec3 eye, bool start)
-{
+static bool faces_away(const Walk *walk, const EnfPortalState *state, EnfVec3 eye, bool start) {
     if (start || (state->flags & ENF_PORTAL_NONPLANAR) != 0) {
         return false;
     }
@@ -88,8 +83,7 @@ static bool faces_away(const Walk *walk, const EnfPortalState *state, EnfVec3 ey
 
 /* The window of one half-portal seen from `eye` (relative to its source cell) through `from`. False: nothing is seen. */
 static bool look_through(const Walk *walk, const EnfPortalState *state, const EnfCamera *camera, EnfVec3 eye, const Pane *from,
-                         Pane *to)
-{
+                         Pane *to) {
     if ((state->flags & ENF_PORTAL_OVERLAP) != 0) {
         *to = *from;
         return true;
@@ -108,8 +102,7 @@ static bool look_through(const Walk *walk, const EnfPortalState *state, const En
 }
 
 /* One step of either traversal: looks from visit `index` through half-portal `portal`. False: nothing is seen. */
-static bool step(Walk *walk, uint32_t index, uint32_t portal, const Pane *from, Pane *to)
-{
+static bool step(Walk *walk, uint32_t index, uint32_t portal, const Pane *from, Pane *to) {
     EnfVis *vis = walk->vis;
     const EnfVisit *visit = &vis->visits[index];
     const EnfPortalState *state = &walk->portals->states[portal];
@@ -127,8 +120,7 @@ static bool step(Walk *walk, uint32_t index, uint32_t portal, const Pane *from, 
     return true;
 }
 
-static void pane_of_visit(const Walk *walk, uint32_t index, Pane *pane)
-{
+static void pane_of_visit(const Walk *walk, uint32_t index, Pane *pane) {
     const EnfVisit *visit = &walk->vis->visits[index];
     pane->box = visit->window;
     if (uses_polygons(walk)) {
@@ -137,8 +129,7 @@ static void pane_of_visit(const Walk *walk, uint32_t index, Pane *pane)
 }
 
 /* Appends a visit with its window; ENF_NONE (and walk->no_memory) when memory ran out. */
-static uint32_t add_visit(Walk *walk, EnfVisit visit, const Pane *pane)
-{
+static uint32_t add_visit(Walk *walk, EnfVisit visit, const Pane *pane) {
     EnfVis *vis = walk->vis;
     visit.window = pane->box;
     visit.polygon = ENF_NONE;
@@ -155,8 +146,7 @@ static uint32_t add_visit(Walk *walk, EnfVisit visit, const Pane *pane)
     return index;
 }
 
-static Walk begin(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+static Walk begin(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     Walk walk = {vis, vis->map, portals, view, 0, view->max_steps, false};
     vis->visit_count = 0;
     vis->polygon_count = 0;
@@ -172,8 +162,7 @@ static Walk begin(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
     return walk;
 }
 
-static uint32_t add_start(Walk *walk)
-{
+static uint32_t add_start(Walk *walk) {
     Pane pane;
     pane.box = enf_window_full(&walk->view->camera);
     if (uses_polygons(walk)) {
@@ -185,8 +174,7 @@ static uint32_t add_start(Walk *walk)
 
 /* ---- worklist --------------------------------------------------------------------------------------------------- */
 
-static void enqueue(EnfVis *vis, uint32_t index)
-{
+static void enqueue(EnfVis *vis, uint32_t index) {
     EnfVisitLink *link = &vis->links[index];
     if (link->queued) {
         return;
@@ -201,8 +189,7 @@ static void enqueue(EnfVis *vis, uint32_t index)
     vis->queue_tail = index;
 }
 
-static uint32_t dequeue(EnfVis *vis)
-{
+static uint32_t dequeue(EnfVis *vis) {
     uint32_t index = vis->queue_head;
     vis->queue_head = vis->links[index].next;
     if (vis->queue_head == ENF_NONE) {
@@ -213,8 +200,7 @@ static uint32_t dequeue(EnfVis *vis)
 }
 
 /* The visit of (cell, space), or ENF_NONE. Spaces beyond the first hold few cells and are searched. */
-static uint32_t find_visit(const EnfVis *vis, uint32_t cell, uint32_t space)
-{
+static uint32_t find_visit(const EnfVis *vis, uint32_t cell, uint32_t space) {
     if (space == 0) {
         return vis->cell_frame[cell] == vis->frame ? vis->cell_visit[cell] : ENF_NONE;
     }
@@ -227,8 +213,7 @@ static uint32_t find_visit(const EnfVis *vis, uint32_t cell, uint32_t space)
 }
 
 /* Grows the window of a visit. False if it already held all of `pane`. */
-static bool widen(const Walk *walk, uint32_t index, const Pane *pane)
-{
+static bool widen(const Walk *walk, uint32_t index, const Pane *pane) {
     EnfVis *vis = walk->vis;
     EnfVisit *visit = &vis->visits[index];
     if (uses_polygons(walk)) {
@@ -250,8 +235,7 @@ static bool widen(const Walk *walk, uint32_t index, const Pane *pane)
 }
 
 /* `pane` of (cell, space) was found behind `portal` of visit `from`. */
-static void reach(Walk *walk, uint32_t from, uint32_t portal, uint32_t space, const Pane *pane)
-{
+static void reach(Walk *walk, uint32_t from, uint32_t portal, uint32_t space, const Pane *pane) {
     EnfVis *vis = walk->vis;
     uint32_t cell = walk->portals->states[portal].target;
     uint32_t index = find_visit(vis, cell, space);
@@ -272,8 +256,7 @@ static void reach(Walk *walk, uint32_t from, uint32_t portal, uint32_t space, co
     }
 }
 
-EnfTraverseEnd enf_vis_worklist(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+EnfTraverseEnd enf_vis_worklist(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     Walk walk = begin(vis, portals, view);
     uint32_t start = add_start(&walk);
     if (start == ENF_NONE) {
@@ -308,8 +291,7 @@ EnfTraverseEnd enf_vis_worklist(EnfVis *vis, const EnfPortals *portals, const En
 
 /* Has this sequence gone through `portal` (in this space) before? Then its window there held this one, and all that could be
  * found was found. Keeps slivers of tolerance from turning a pair of twins into an endless sequence. */
-static bool in_sequence(const EnfVis *vis, uint32_t index, uint32_t portal, uint32_t space)
-{
+static bool in_sequence(const EnfVis *vis, uint32_t index, uint32_t portal, uint32_t space) {
     for (uint32_t v = index; v != ENF_NONE; v = vis->visits[v].parent) {
         if (vis->visits[v].portal == portal && vis->visits[v].space == space) {
             return true;
@@ -319,8 +301,7 @@ static bool in_sequence(const EnfVis *vis, uint32_t index, uint32_t portal, uint
 }
 
 /* Looks through every portal of a visit and stacks what is seen; the stack is the queue's links, last in, first out. */
-static void expand(Walk *walk, uint32_t index)
-{
+static void expand(Walk *walk, uint32_t index) {
     EnfVis *vis = walk->vis;
     Pane from;
     Pane to;
@@ -345,8 +326,7 @@ static void expand(Walk *walk, uint32_t index)
     }
 }
 
-EnfTraverseEnd enf_vis_sequences(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+EnfTraverseEnd enf_vis_sequences(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     Walk walk = begin(vis, portals, view);
     walk.max_steps = walk.max_steps != 0 ? walk.max_steps : SEQUENCE_STEPS;
     vis->queue_head = add_start(&walk);

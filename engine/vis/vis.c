@@ -4,8 +4,7 @@
 
 #include <string.h>
 
-EnfView enf_view_default(void)
-{
+EnfView enf_view_default(void) {
     EnfView view;
     memset(&view, 0, sizeof view);
     view.camera = enf_camera(enf_v3(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 60.0, 640, 480);
@@ -17,8 +16,7 @@ EnfView enf_view_default(void)
 }
 
 /* Forgets what was found and starts over with the picture's camera alone. */
-static void restart(EnfVis *vis, const EnfView *view)
-{
+static void restart(EnfVis *vis, const EnfView *view) {
     vis->visit_count = 0;
     vis->polygon_count = 0;
     vis->entry_count = 0;
@@ -27,8 +25,7 @@ static void restart(EnfVis *vis, const EnfView *view)
 }
 
 /* Everything in the picture's pyramid: cells + OUTSIDE visits were reserved when `vis` was made, so this cannot fail. */
-static void list_picture(EnfVis *vis, const EnfView *view)
-{
+static void list_picture(EnfVis *vis, const EnfView *view) {
     restart(vis, view);
     bool ok = enf_vis_list_frustum(vis, 0, enf_window_full(&view->camera));
     ENF_ASSERT(ok);
@@ -36,8 +33,7 @@ static void list_picture(EnfVis *vis, const EnfView *view)
 }
 
 /* Whoever sees into a cell whose shell leaks may see anything in that window, in that space (PITFALLS 17). */
-static bool list_open_windows(EnfVis *vis)
-{
+static bool list_open_windows(EnfVis *vis) {
     EnfWindow windows[ENF_VIS_SPACES_MAX];
     memset(windows, 0, vis->space_count * sizeof *windows);
     for (uint32_t v = 0; v < vis->visit_count; v++) {
@@ -57,8 +53,7 @@ static bool list_open_windows(EnfVis *vis)
 }
 
 /* Visits by portals. False when the frustum must answer instead. */
-static bool traverse(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+static bool traverse(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     EnfTraverseEnd end = ENF_TRAVERSE_LIMIT;
     if (view->cull == ENF_CULL_SEQUENCES) {
         end = enf_vis_sequences(vis, portals, view);
@@ -70,8 +65,7 @@ static bool traverse(EnfVis *vis, const EnfPortals *portals, const EnfView *view
     return end == ENF_TRAVERSE_DONE && list_open_windows(vis);
 }
 
-static void find_visits(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+static void find_visits(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     restart(vis, view);
     if (view->cull == ENF_CULL_NONE) {
         bool ok = enf_vis_list_all(vis);
@@ -89,8 +83,7 @@ static void find_visits(EnfVis *vis, const EnfPortals *portals, const EnfView *v
     }
 }
 
-static void publish(EnfVis *vis)
-{
+static void publish(EnfVis *vis) {
     EnfVisSet *set = &vis->set;
     set->visits = vis->visits;
     set->visit_count = vis->visit_count;
@@ -105,10 +98,10 @@ static void publish(EnfVis *vis)
     set->counters.cells = set->cell_count;
 }
 
-const EnfVisSet *enf_vis_run(EnfVis *vis, const EnfPortals *portals, const EnfView *view)
-{
+const EnfVisSet *enf_vis_run(EnfVis *vis, const EnfPortals *portals, const EnfView *view) {
     ENF_ASSERT(portals->map == vis->map);
     memset(&vis->set, 0, sizeof vis->set);
+    vis->set.objects_failed = view->dbv != NULL && enf_dbv_begin(view->dbv, NULL) != ENF_OK;
     find_visits(vis, portals, view);
     if (!enf_vis_collect(vis, view)) {
         /* No memory for entries of several spaces or primitives: one space, objects, which always fit. */
@@ -121,11 +114,14 @@ const EnfVisSet *enf_vis_run(EnfVis *vis, const EnfPortals *portals, const EnfVi
         (void)ok;
     }
     publish(vis);
+    if (view->dbv != NULL) {
+        vis->set.objects = enf_dbv_end(view->dbv, &vis->set.object_count);
+        vis->set.objects_failed = vis->set.objects_failed || enf_dbv_failed(view->dbv);
+    }
     return &vis->set;
 }
 
-uint64_t enf_vis_hash(const EnfVisSet *set)
-{
+uint64_t enf_vis_hash(const EnfVisSet *set) {
     uint64_t hash = enf_hash64(ENF_HASH_START, set->cells, set->cell_count * sizeof *set->cells);
     for (uint32_t i = 0; i < set->entry_count; i++) {
         uint32_t key[2] = {set->entries[i].space, set->entries[i].cluster};

@@ -7,8 +7,7 @@
 /* Room for cells of the map seen once each, and some more. */
 #define FIRST_EXTRA_VISITS 64U
 
-static bool bits_create(EnfBits *bits, uint32_t members, const EnfAllocator *allocator)
-{
+static bool bits_create(EnfBits *bits, uint32_t members, const EnfAllocator *allocator) {
     bits->word_count = members / 64U + 1U;
     bits->summary_count = bits->word_count / 64U + 1U;
     bits->words = enf_alloc(allocator, bits->word_count, sizeof *bits->words);
@@ -16,14 +15,12 @@ static bool bits_create(EnfBits *bits, uint32_t members, const EnfAllocator *all
     return bits->words != NULL && bits->summary != NULL;
 }
 
-static void bits_destroy(EnfBits *bits, const EnfAllocator *allocator)
-{
+static void bits_destroy(EnfBits *bits, const EnfAllocator *allocator) {
     enf_free(allocator, bits->words, bits->word_count, sizeof *bits->words);
     enf_free(allocator, bits->summary, bits->summary_count, sizeof *bits->summary);
 }
 
-bool enf_bits_add(EnfBits *bits, uint32_t member)
-{
+bool enf_bits_add(EnfBits *bits, uint32_t member) {
     uint32_t word = member / 64U;
     uint64_t bit = UINT64_C(1) << (member % 64U);
     bool fresh = (bits->words[word] & bit) == 0;
@@ -33,8 +30,7 @@ bool enf_bits_add(EnfBits *bits, uint32_t member)
 }
 
 /* Index of the lowest set bit; x != 0. */
-static uint32_t lowest(uint64_t x)
-{
+static uint32_t lowest(uint64_t x) {
 #if defined(__GNUC__)
     return (uint32_t)__builtin_ctzll(x);
 #else
@@ -46,8 +42,7 @@ static uint32_t lowest(uint64_t x)
 #endif
 }
 
-uint32_t enf_bits_drain(EnfBits *bits, uint32_t *out)
-{
+uint32_t enf_bits_drain(EnfBits *bits, uint32_t *out) {
     uint32_t count = 0;
     for (uint32_t s = 0; s < bits->summary_count; s++) {
         for (uint64_t pending = bits->summary[s]; pending != 0; pending &= pending - 1U) {
@@ -66,8 +61,7 @@ uint32_t enf_bits_drain(EnfBits *bits, uint32_t *out)
 }
 
 /* At least `count`, at least double. */
-static uint32_t grown(uint32_t capacity, uint32_t count)
-{
+static uint32_t grown(uint32_t capacity, uint32_t count) {
     uint64_t next = (uint64_t)capacity * 2U;
     if (next < count) {
         next = count;
@@ -76,8 +70,7 @@ static uint32_t grown(uint32_t capacity, uint32_t count)
 }
 
 /* A larger copy of an array, or NULL; the old one stays. */
-static void *enlarged(const EnfVis *vis, const void *array, uint32_t count, uint32_t capacity, size_t size)
-{
+static void *enlarged(const EnfVis *vis, const void *array, uint32_t count, uint32_t capacity, size_t size) {
     void *block = enf_alloc(vis->allocator, capacity, size);
     if (block != NULL && count > 0) {
         memcpy(block, array, count * size);
@@ -85,8 +78,7 @@ static void *enlarged(const EnfVis *vis, const void *array, uint32_t count, uint
     return block;
 }
 
-bool enf_vis_reserve_visits(EnfVis *vis, uint32_t count)
-{
+bool enf_vis_reserve_visits(EnfVis *vis, uint32_t count) {
     if (count <= vis->visit_capacity) {
         return true;
     }
@@ -110,8 +102,7 @@ bool enf_vis_reserve_visits(EnfVis *vis, uint32_t count)
     return ok;
 }
 
-bool enf_vis_reserve_polygons(EnfVis *vis, uint32_t count)
-{
+bool enf_vis_reserve_polygons(EnfVis *vis, uint32_t count) {
     if (count <= vis->polygon_capacity) {
         return true;
     }
@@ -126,8 +117,7 @@ bool enf_vis_reserve_polygons(EnfVis *vis, uint32_t count)
     return true;
 }
 
-bool enf_vis_reserve_entries(EnfVis *vis, uint32_t count)
-{
+bool enf_vis_reserve_entries(EnfVis *vis, uint32_t count) {
     if (count <= vis->entry_capacity) {
         return true;
     }
@@ -142,8 +132,7 @@ bool enf_vis_reserve_entries(EnfVis *vis, uint32_t count)
     return true;
 }
 
-uint32_t enf_vis_add_visit(EnfVis *vis, EnfVisit visit)
-{
+uint32_t enf_vis_add_visit(EnfVis *vis, EnfVisit visit) {
     if (!enf_vis_reserve_visits(vis, vis->visit_count + 1U)) {
         return ENF_NONE;
     }
@@ -155,8 +144,7 @@ uint32_t enf_vis_add_visit(EnfVis *vis, EnfVisit visit)
 }
 
 /* A kd query returns at most the items of the largest tree. */
-static uint32_t largest_tree(const EnfMap *map)
-{
+static uint32_t largest_tree(const EnfMap *map) {
     uint32_t blocks = map->cell_blocks_count;
     for (uint32_t i = 0; i < map->cells_count; i++) {
         blocks = map->cells[i].block_count > blocks ? map->cells[i].block_count : blocks;
@@ -164,8 +152,7 @@ static uint32_t largest_tree(const EnfMap *map)
     return blocks * ENF_KD_BLOCK;
 }
 
-static bool allocate(EnfVis *vis)
-{
+static bool allocate(EnfVis *vis) {
     const EnfMap *map = vis->map;
     const EnfAllocator *allocator = vis->allocator;
     uint32_t cells = map->cells_count + 1U; /* never an allocation of nothing */
@@ -182,8 +169,7 @@ static bool allocate(EnfVis *vis)
     return ok && enf_vis_reserve_visits(vis, cells + FIRST_EXTRA_VISITS) && enf_vis_reserve_entries(vis, clusters);
 }
 
-EnfResult enf_vis_create(EnfVis **out, const EnfMap *map, const EnfAllocator *allocator, EnfError *error)
-{
+EnfResult enf_vis_create(EnfVis **out, const EnfMap *map, const EnfAllocator *allocator, EnfError *error) {
     *out = NULL;
     EnfVis *vis = enf_alloc(allocator, 1, sizeof *vis);
     if (vis != NULL) {
@@ -202,8 +188,7 @@ EnfResult enf_vis_create(EnfVis **out, const EnfMap *map, const EnfAllocator *al
     return ENF_OK;
 }
 
-void enf_vis_destroy(EnfVis *vis)
-{
+void enf_vis_destroy(EnfVis *vis) {
     if (vis == NULL) {
         return;
     }

@@ -272,10 +272,46 @@ static void test_a_jumping_eye(void **state) {
     run(EYE_JUMPS, 3, enf_test_rounds(400, 20000));
 }
 
+/* The traversal exposes as the windows do that it made. */
+static void test_the_traversal_exposes(void **state) {
+    (void)state;
+    Stage stage;
+    EnfTestRng rng = enf_test_rng(4);
+    open_stage(&stage, 4);
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        spawn(&stage, &rng, i);
+    }
+    EnfView view = enf_view_default();
+    for (uint32_t t = 0; t < 200; t++) {
+        move_eye(&stage, &rng, EYE_WALKS, (int64_t)t, &view);
+        Windows windows;
+        view.dbv = NULL;
+        look(&stage, &view, &windows);
+        view.dbv = stage.indices[2];
+        const EnfVisSet *set = enf_vis_run(stage.vis, &stage.portals, &view);
+        assert_false(set->objects_failed);
+        uint32_t k = 0;
+        for (uint32_t object = 0; object < enf_world_object_limit(stage.world); object++) {
+            bool alive = enf_world_object(stage.world, object).generation != 0;
+            if (alive && expected(&stage, &windows, object)) {
+                if (k >= set->object_count || set->objects[k] != object) {
+                    fail_msg("tick %u: object %u is visible and not listed (%u listed)", t, object, set->object_count);
+                }
+                k++;
+            }
+        }
+        assert_int_equal(k, set->object_count);
+        enf_world_advance(stage.world, 1);
+        disturb(&stage, &rng);
+    }
+    close_stage(&stage);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_a_still_eye),
     cmocka_unit_test(test_a_walking_eye),
     cmocka_unit_test(test_a_jumping_eye),
+    cmocka_unit_test(test_the_traversal_exposes),
 };
 
 ENF_TEST_MAIN(tests)

@@ -67,6 +67,9 @@ void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid);
  *  @guarantee equal to testing every object of the world, at every tick, under every policy: tests/property/test_dbv. */
 const uint32_t *enf_dbv_end(EnfDbvIndex *index, uint32_t *count);
 
+/** Did memory run out in this frame, so that something may be missing? */
+bool enf_dbv_failed(const EnfDbvIndex *index);
+
 /** Counters of the last frame, and of all frames since the index was made. */
 EnfDbvCounters enf_dbv_frame_counters(const EnfDbvIndex *index);
 EnfDbvCounters enf_dbv_total_counters(const EnfDbvIndex *index);

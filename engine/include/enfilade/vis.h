@@ -3,7 +3,7 @@
 #ifndef ENFILADE_VIS_H
 #define ENFILADE_VIS_H
 
-#include <enfilade/world.h>
+#include <enfilade/dbv.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -21,6 +21,7 @@ typedef enum EnfWindowMode { ENF_WINDOW_BOX, ENF_WINDOW_POLYGON } EnfWindowMode;
 typedef enum EnfGrain { ENF_GRAIN_OBJECTS, ENF_GRAIN_PRIMITIVES } EnfGrain;
 
 typedef struct EnfView {
+    EnfDbvIndex *dbv; /**< moving objects to be found (one frame of the index a run), or NULL */
     EnfCamera camera;
     uint32_t cell; /**< the eye's cell, or ENF_NONE: outside every cell, everything in the frustum is listed */
     EnfCull cull;
@@ -71,6 +72,9 @@ typedef struct EnfVisSet {
     uint32_t cell_count;
     const EnfVisEntry *entries; /**< visible clusters, ascending by (space, cluster[, visit]): the canonical order */
     uint32_t entry_count;
+    const uint32_t *objects; /**< moving objects drawn, ascending (EnfView.dbv; any space) */
+    uint32_t object_count;
+    bool objects_failed;      /**< memory ran out in the index: every object must be drawn */
     const EnfCamera *cameras; /**< one a space: the eye as that space sees it; [0] is the view's camera */
     uint32_t space_count;
     const EnfWindowPolygon *polygons;
