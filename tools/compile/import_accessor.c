@@ -2,6 +2,7 @@
  * 64 bits, against the view as it really is. */
 #include "compile/import.h"
 
+#include <inttypes.h>
 #include <string.h>
 
 enum { BYTE = 5120, UNSIGNED_BYTE = 5121, SHORT = 5122, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126 };
@@ -87,8 +88,8 @@ static EnfResult refuse(EnfImport *import, EnfResult code, uint32_t accessor, co
 static EnfResult locate(EnfImport *import, uint32_t accessor, EnfImportBytes view, uint64_t offset, uint64_t extent) {
     if (offset > view.size || extent > view.size - offset) {
         return enf_error_set(import->error, ENF_ERROR_RANGE, UINT64_MAX,
-                             "accessors[%u]: needs bytes %llu to %llu of a buffer view of %zu", accessor,
-                             (unsigned long long)offset, (unsigned long long)(offset + extent), view.size);
+                             "accessors[%u]: needs bytes %" PRIu64 " to %" PRIu64 " of a buffer view of %zu", accessor, offset,
+                             offset + extent, view.size);
     }
     return ENF_OK;
 }

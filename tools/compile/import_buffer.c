@@ -4,6 +4,7 @@
 
 #include <meshoptimizer.h>
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -131,8 +132,8 @@ static EnfResult cut(EnfImport *import, uint32_t view, uint32_t buffer, uint64_t
     }
     if (offset > whole.size || length > whole.size - offset) {
         return enf_error_set(import->error, ENF_ERROR_RANGE, UINT64_MAX,
-                             "bufferViews[%u]: bytes %llu to %llu of a buffer of %zu", view, (unsigned long long)offset,
-                             (unsigned long long)(offset + length), whole.size);
+                             "bufferViews[%u]: bytes %" PRIu64 " to %" PRIu64 " of a buffer of %zu", view, offset,
+                             offset + length, whole.size);
     }
     *out = (EnfImportBytes){whole.data + offset, (size_t)length};
     return ENF_OK;

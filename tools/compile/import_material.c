@@ -194,15 +194,18 @@ static EnfMaterial default_material(void) {
     return material;
 }
 
+static bool same_coordinates(const EnfGltfTextureRef *a, const EnfGltfTextureRef *b) {
+    return a->uv_set == b->uv_set && a->rotation == b->rotation && a->offset[0] == b->offset[0] &&
+           a->offset[1] == b->offset[1] && a->scale[0] == b->scale[0] && a->scale[1] == b->scale[1];
+}
+
 /* One set of coordinates and one transform serve both textures: those of the base colour, if it has one. */
 static const EnfGltfTextureRef *leading_texture(EnfImport *import, const EnfGltfMaterial *from) {
     const EnfGltfTextureRef *base = &from->base, *glow = &from->emissive_texture;
     if (base->texture == ENF_NONE) {
         return glow;
     }
-    if (glow->texture != ENF_NONE && (glow->uv_set != base->uv_set || glow->rotation != base->rotation ||
-                                      memcmp(glow->offset, base->offset, sizeof base->offset) != 0 ||
-                                      memcmp(glow->scale, base->scale, sizeof base->scale) != 0)) {
+    if (glow->texture != ENF_NONE && !same_coordinates(base, glow)) {
         enf_diagnose(import->diagnosis, ENF_DIAGNOSIS_UNSUPPORTED, "",
                      "material '%s': its emissive texture takes the coordinates of the base colour texture", from->name);
     }

@@ -148,7 +148,7 @@ static EnfResult read_positions(MeshReader *reader, uint32_t accessor, EnfImport
         if (!isfinite(positions[i])) {
             return enf_error_set(reader->import->error, ENF_ERROR_RANGE, UINT64_MAX,
                                  "accessors[%u]: position %llu is not a finite number", accessor,
-                                 (unsigned long long)(range.first + i / 3));
+                                 (unsigned long long)range.first + i / 3);
         }
     }
     to->positions = positions;

@@ -54,6 +54,7 @@ typedef struct EnfSourcePath {
     const float *times, *values; /**< values: 3 or 4 a key (× 3 for cubic) */
 } EnfSourcePath;
 
+/** As KHR_lights_punctual; range 0 where the file gives none, cone angles in radians. */
 typedef struct EnfSourceLight {
     const char *name;
     EnfLightKind kind;
