@@ -11,7 +11,7 @@ enum { BLOCK = 8, MORTON_BITS = 21 };
 #define MARGIN_STEPS 3.0
 
 typedef struct Box {
-    double min[3], max[3];
+    double center[3], extent[3]; /* half sizes, with the margin; negative: empty */
 } Box;
 
 typedef struct Keyed {
@@ -70,31 +70,54 @@ static void sort_by_morton(EnfPointTree *tree, Keyed *keyed, const uint32_t *ids
     }
 }
 
-static void add_point(Box *box, EnfGrid3 p) {
-    const double c[3] = {(double)p.x, (double)p.y, (double)p.z};
-    for (int axis = 0; axis < 3; axis++) {
-        box->min[axis] = c[axis] < box->min[axis] ? c[axis] : box->min[axis];
-        box->max[axis] = c[axis] > box->max[axis] ? c[axis] : box->max[axis];
+/* The box of points of the block `leaf`; false if there is none. */
+static bool block_range(const EnfPointTree *tree, uint32_t leaf, double min[3], double max[3]) {
+    uint64_t first = (uint64_t)leaf * BLOCK;
+    for (uint64_t i = first; i < tree->count && i < first + BLOCK; i++) {
+        EnfGrid3 p = tree->points[tree->ids[i]];
+        const double c[3] = {(double)p.x, (double)p.y, (double)p.z};
+        for (int axis = 0; axis < 3; axis++) {
+            min[axis] = i == first || c[axis] < min[axis] ? c[axis] : min[axis];
+            max[axis] = i == first || c[axis] > max[axis] ? c[axis] : max[axis];
+        }
     }
+    return first < tree->count;
+}
+
+static Box make_box(const double min[3], const double max[3], bool filled) {
+    Box box;
+    for (int axis = 0; axis < 3; axis++) {
+        box.center[axis] = filled ? 0.5 * (min[axis] + max[axis]) : 0;
+        box.extent[axis] = filled ? 0.5 * (max[axis] - min[axis]) + MARGIN_STEPS : -0x1p62;
+    }
+    return box;
+}
+
+/* Both halves are at least as far out as their points, so the box of both is. */
+static Box join(const Box *left, const Box *right) {
+    if (left->extent[0] < 0 || right->extent[0] < 0) {
+        return left->extent[0] < 0 ? *right : *left;
+    }
+    Box box;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = left->center[axis] - left->extent[axis], other_low = right->center[axis] - right->extent[axis];
+        double high = left->center[axis] + left->extent[axis], other_high = right->center[axis] + right->extent[axis];
+        low = other_low < low ? other_low : low;
+        high = other_high > high ? other_high : high;
+        box.center[axis] = 0.5 * (low + high);
+        box.extent[axis] = 0.5 * (high - low);
+    }
+    return box;
 }
 
 static void fit_boxes(EnfPointTree *tree) {
-    const double far_away = 0x1p62;
     for (uint32_t leaf = 0; leaf < tree->leaf_count; leaf++) {
-        Box box = {{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
-        for (uint64_t i = (uint64_t)leaf * BLOCK; i < tree->count && i < ((uint64_t)leaf + 1) * BLOCK; i++) {
-            add_point(&box, tree->points[tree->ids[i]]);
-        }
-        tree->boxes[tree->leaf_count + leaf] = box;
+        double min[3] = {0}, max[3] = {0};
+        bool filled = block_range(tree, leaf, min, max);
+        tree->boxes[tree->leaf_count + leaf] = make_box(min, max, filled);
     }
     for (uint32_t node = tree->leaf_count - 1; node > 0; node--) {
-        const Box *left = &tree->boxes[2 * node], *right = &tree->boxes[2 * node + 1];
-        for (int axis = 0; axis < 3; axis++) {
-            double low = left->min[axis] < right->min[axis] ? left->min[axis] : right->min[axis];
-            double high = left->max[axis] > right->max[axis] ? left->max[axis] : right->max[axis];
-            tree->boxes[node].min[axis] = low;
-            tree->boxes[node].max[axis] = high;
-        }
+        tree->boxes[node] = join(&tree->boxes[2 * node], &tree->boxes[2 * node + 1]);
     }
 }
 
@@ -169,18 +192,17 @@ static double magnitude(double x) {
 
 /* May the segment, MARGIN_STEPS thick, touch the box? Separating axes: the box's three and their products with the segment. */
 static bool touches(const Segment *s, const Box *box) {
-    double between[3], extent[3];
+    double between[3];
     for (int axis = 0; axis < 3; axis++) {
-        between[axis] = s->center[axis] - 0.5 * (box->min[axis] + box->max[axis]);
-        extent[axis] = 0.5 * (box->max[axis] - box->min[axis]) + MARGIN_STEPS;
-        if (magnitude(between[axis]) > extent[axis] + s->reach[axis]) {
+        between[axis] = s->center[axis] - box->center[axis];
+        if (magnitude(between[axis]) > box->extent[axis] + s->reach[axis]) {
             return false;
         }
     }
     for (int axis = 0; axis < 3; axis++) {
         int i = (axis + 1) % 3, j = (axis + 2) % 3;
         double apart = magnitude(between[i] * s->half[j] - between[j] * s->half[i]);
-        if (apart > extent[i] * s->reach[j] + extent[j] * s->reach[i]) {
+        if (apart > box->extent[i] * s->reach[j] + box->extent[j] * s->reach[i]) {
             return false;
         }
     }
