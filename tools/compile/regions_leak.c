@@ -19,6 +19,9 @@ enum {
 /* Metres from a portal or surface to the point just inside that is asked about. */
 static const double JUST_INSIDE = 1.0 / 64.0;
 
+/* A node whose box is at least this much of its cell's (by the diagonals) is taken for walls. */
+static const double WALLS = 0.4;
+
 typedef struct Leaks {
     EnfRegions *regions;
     EnfSpace *space;
@@ -69,19 +72,25 @@ static EnfVec3 portal_middle(const EnfLayout *layout, const EnfLayoutPortal *por
     return middle;
 }
 
-/* Surfaces and portals of a cell, fronts inward. */
-static bool gather(Leaks *leaks, uint32_t cell) {
+static double diagonal(EnfBox3 box) {
+    return enf_length(enf_sub(box.max, box.min));
+}
+
+/* The end of the run of triangles of one node that begins at `i`, and the box of the run. */
+static uint32_t run_of_node(const Leaks *leaks, uint32_t i, uint32_t end, EnfBox3 *box) {
     const EnfSoup *soup = leaks->regions->soup;
-    const EnfLayout *layout = leaks->regions->layout;
-    leaks->corners.count = 0;
-    for (uint32_t i = leaks->first[cell]; i < leaks->first[cell + 1]; i++) {
-        if (!ENF_ARRAY_ROOM(&leaks->corners, 3)) {
-            return false;
-        }
-        for (int k = 0; k < 3 && seals(leaks, leaks->order[i]); k++) {
-            leaks->corners.data[leaks->corners.count++] = soup->vertices[soup->triangles[leaks->order[i]].v[k]].p;
-        }
+    uint32_t node = soup->triangles[leaks->order[i]].node;
+    *box = enf_box3_empty();
+    for (; i < end && soup->triangles[leaks->order[i]].node == node; i++) {
+        EnfVec3 p[3];
+        enf_soup_corners(soup, leaks->order[i], p);
+        *box = enf_box3_add(enf_box3_add(enf_box3_add(*box, p[0]), p[1]), p[2]);
     }
+    return i;
+}
+
+static bool gather_portals(Leaks *leaks, uint32_t cell) {
+    const EnfLayout *layout = leaks->regions->layout;
     for (uint32_t p = leaks->space->portal_first[cell]; p < leaks->space->portal_first[cell + 1]; p++) {
         const EnfGrid3 *points = &layout->points[layout->portals[p].point_first];
         for (uint32_t k = 2; k < layout->portals[p].point_count; k++) {
@@ -93,8 +102,32 @@ static bool gather(Leaks *leaks, uint32_t cell) {
             leaks->corners.data[leaks->corners.count++] = points[k - 1];
         }
     }
+    return true;
+}
+
+/* Surfaces and portals of a cell, fronts inward; of the surfaces only nodes that span `share` of the cell: its walls, rather than what
+ * stands between them. */
+static bool gather(Leaks *leaks, uint32_t cell, double share) {
+    const EnfSoup *soup = leaks->regions->soup;
+    double least = share * diagonal(leaks->space->shells.cells[cell].box);
+    leaks->corners.count = 0;
+    for (uint32_t first = leaks->first[cell], end; first < leaks->first[cell + 1]; first = end) {
+        EnfBox3 box;
+        end = run_of_node(leaks, first, leaks->first[cell + 1], &box);
+        if (diagonal(box) < least) {
+            continue;
+        }
+        if (!ENF_ARRAY_ROOM(&leaks->corners, 3 * (uint64_t)(end - first))) {
+            return false;
+        }
+        for (uint32_t i = first; i < end; i++) {
+            for (int k = 0; k < 3 && seals(leaks, leaks->order[i]); k++) {
+                leaks->corners.data[leaks->corners.count++] = soup->vertices[soup->triangles[leaks->order[i]].v[k]].p;
+            }
+        }
+    }
     leaks->closed.count = 0;
-    return ENF_ARRAY_ROOM(&leaks->closed, leaks->corners.count / 3 + 1);
+    return gather_portals(leaks, cell) && ENF_ARRAY_ROOM(&leaks->closed, leaks->corners.count / 3 + 1);
 }
 
 static void add_seed(Leaks *leaks, EnfVec3 at, EnfVec3 inward) {
@@ -252,7 +285,7 @@ static bool flood(Leaks *leaks, uint32_t cell, uint32_t limit) {
         return true;
     }
     uint32_t voxels[SEEDS];
-    if (!gather(leaks, cell) || !enf_voxels_reset(&leaks->voxels, box, voxel_size(leaks, box), limit)) {
+    if (!gather(leaks, cell, 0.0) || !enf_voxels_reset(&leaks->voxels, box, voxel_size(leaks, box), limit)) {
         return false;
     }
     mark_own(leaks);
@@ -274,10 +307,14 @@ static bool find_all(Leaks *leaks) {
         if ((layout->cells[c].flags & ENF_CELL_OPEN) || leaks->space->shells.cells[c].count == 0) {
             continue;
         }
-        if (!gather(leaks, c) || !ENF_ARRAY_ROOM(&leaks->floods, 1)) {
-            return false;
+        bool proved = false;
+        for (int attempt = 0; attempt < 2 && !proved; attempt++) {
+            if (!gather(leaks, c, attempt == 0 ? WALLS : 0.0) || !ENF_ARRAY_ROOM(&leaks->floods, 1)) {
+                return false;
+            }
+            proved = is_proved_closed(leaks, c);
         }
-        if (!is_proved_closed(leaks, c)) {
+        if (!proved) {
             leaks->floods.data[leaks->floods.count++] = c;
         }
     }

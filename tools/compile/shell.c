@@ -132,19 +132,27 @@ static void choose_axes(EnfShells *shells, EnfShell *shell, AxisVotes *votes) {
     }
 }
 
-/* Axes, and whether the normals point outward: then the signed volume is most of the box. Walls made as solids have a positive
- * volume too, but a small one. */
-static void summarise(EnfShells *shells, EnfShell *shell) {
-    AxisVotes votes = {.count = 0};
+/* Do the normals point outward? Then the signed volume is most of the box. Walls made as solids have a positive volume too, but a small
+ * one. */
+static bool is_inverted(const EnfShells *shells, const EnfShell *shell) {
     double volume = 0.0;
     for (uint32_t t = shell->first; t < shell->first + shell->count; t++) {
-        EnfVec3 a = corner(shells, t, 0), b = corner(shells, t, 1), c = corner(shells, t, 2);
-        vote(&votes, enf_cross(enf_sub(b, a), enf_sub(c, a)));
-        volume += enf_dot(a, enf_cross(b, c)) / 6.0;
+        volume += enf_dot(corner(shells, t, 0), enf_cross(corner(shells, t, 1), corner(shells, t, 2))) / 6.0;
     }
-    choose_axes(shells, shell, &votes);
     EnfVec3 size = enf_sub(shell->box.max, shell->box.min);
-    shell->inverted = shell->count > 0 && volume > 0.6 * size.x * size.y * size.z;
+    return shell->count > 0 && volume > 0.6 * size.x * size.y * size.z;
+}
+
+void enf_shells_find_slabs(EnfShells *shells) {
+    for (uint32_t c = 0; c < shells->cell_count; c++) {
+        EnfShell *shell = &shells->cells[c];
+        AxisVotes votes = {.count = 0};
+        for (uint32_t t = shell->first; t < shell->first + shell->count; t++) {
+            EnfVec3 a = corner(shells, t, 0);
+            vote(&votes, enf_cross(enf_sub(corner(shells, t, 1), a), enf_sub(corner(shells, t, 2), a)));
+        }
+        choose_axes(shells, shell, &votes);
+    }
 }
 
 bool enf_shells_create(EnfShells *shells, uint32_t cell_count, uint32_t triangle_count, EnfShellTriangleFn *triangle,
@@ -163,7 +171,7 @@ bool enf_shells_create(EnfShells *shells, uint32_t cell_count, uint32_t triangle
     }
     fill_triangles(shells, triangle_count, triangle, user);
     for (uint32_t c = 0; c < cell_count; c++) {
-        summarise(shells, &shells->cells[c]);
+        shells->cells[c].inverted = is_inverted(shells, &shells->cells[c]);
     }
     return true;
 }

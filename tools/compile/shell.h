@@ -38,6 +38,8 @@ typedef uint32_t EnfShellTriangleFn(const void *user, uint32_t i, EnfVec3 corner
  *  a time may use them: trees are made when needed. @return false if memory is out. */
 bool enf_shells_create(EnfShells *shells, uint32_t cell_count, uint32_t triangle_count, EnfShellTriangleFn *triangle,
                        const void *user);
+/** Finds the slabs of every shell, so that enf_shell_near tells more than boxes do. */
+void enf_shells_find_slabs(EnfShells *shells);
 void enf_shells_free(EnfShells *shells);
 
 /** A cell's convex region, which then decides what is inside; `planes` with outward normals, kept by the caller. */

@@ -88,6 +88,9 @@ bool enf_space_create(EnfSpace *space, const EnfLayout *layout, const EnfSoup *s
     bool ok = note_materials(space) && number_portals(space);
     uint32_t count = ok ? soup->triangle_count + space->fan_first[layout->portal_count] : 0;
     ok = ok && enf_shells_create(&space->shells, space->cell_count, count, shell_triangle, space);
+    if (ok) {
+        enf_shells_find_slabs(&space->shells);
+    }
     for (uint32_t c = 0; ok && c < space->cell_count; c++) {
         const EnfLayoutCell *cell = &layout->cells[c];
         EnfBox3 box = {enf_grid_point(cell->min), enf_grid_point(cell->max)};
