@@ -71,7 +71,8 @@ static uint32_t found_leaf(Found *found, const EnfKdTree *tree, const EnfKdNode 
 
 uint32_t enf_kd_query(const EnfKdTree *tree, const EnfPyramid *pyramid, uint32_t *out, uint32_t capacity,
                       EnfKdCounters *counters) {
-    Found found = {out, capacity, 0};
+    Found found = {NULL, capacity, 0};
+    found.out = out;
     if (tree->node_count == 0) {
         return 0;
     }
@@ -119,7 +120,8 @@ static inline bool overlaps(const float *low, const float *high, uint32_t step, 
 }
 
 uint32_t enf_kd_overlap(const EnfKdTree *tree, EnfBox3f box, uint32_t *out, uint32_t capacity) {
-    Found found = {out, capacity, 0};
+    Found found = {NULL, capacity, 0};
+    found.out = out;
     uint32_t stack[ENF_KD_MAX_DEPTH + 1], depth = 0;
     if (tree->node_count) {
         stack[depth++] = 0;

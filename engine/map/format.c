@@ -23,6 +23,8 @@ _Static_assert(sizeof(EnfPath) == 24, "EnfPath");
 _Static_assert(sizeof(EnfKdNode) == 32, "EnfKdNode");
 _Static_assert(sizeof(EnfKdBlock) == 224, "EnfKdBlock");
 
+const uint8_t enf_map_magic[8] = {'E', 'N', 'F', 'M', 'A', 'P', '\r', '\n'};
+
 const EnfMapChunkInfo enf_map_chunk_info[ENF_MAP_CHUNK_COUNT] = {
 #define ENF_MAP_CHUNK_INFO(type, array, fourcc)                                                                                \
     {fourcc, #array, (uint32_t)sizeof(type), offsetof(EnfMap, array), offsetof(EnfMap, array##_count)},
@@ -89,7 +91,7 @@ uint64_t enf_map_content_hash(const EnfMap *map) {
 /* Header and chunk table. */
 static void put_front(uint8_t front[ENF_MAP_FRONT_SIZE], const EnfMap *map, const uint64_t *offsets, uint64_t size) {
     memset(front, 0, ENF_MAP_FRONT_SIZE);
-    memcpy(front + ENF_MAP_AT_MAGIC, ENF_MAP_MAGIC, 8);
+    memcpy(front + ENF_MAP_AT_MAGIC, enf_map_magic, sizeof enf_map_magic);
     put_u32(front + ENF_MAP_AT_VERSION, ENF_MAP_VERSION);
     put_u32(front + ENF_MAP_AT_ENDIAN, ENF_MAP_ENDIAN);
     put_u64(front + ENF_MAP_AT_FILE_SIZE, size);

@@ -30,8 +30,8 @@ enum {
     ENF_MAP_ALIGN = 16
 };
 
-/** The last two bytes show a transfer in text mode. */
-#define ENF_MAP_MAGIC "ENFMAP\r\n"
+/** "ENFMAP\r\n": the last two bytes show a transfer in text mode. */
+extern const uint8_t enf_map_magic[8];
 #define ENF_MAP_ENDIAN UINT32_C(0x01020304)
 
 /** A chunk's kind: what does not depend on a map. */
@@ -70,8 +70,8 @@ typedef struct EnfMapCheck {
 __attribute__((format(printf, 6, 7)))
 #endif
 EnfResult
-enf_map_bad(const EnfMapCheck *check, EnfMapChunkId chunk, const void *at, const char *field, EnfResult code,
-            const char *format, ...);
+enf_map_bad(const EnfMapCheck *check, EnfMapChunkId id, const void *at, const char *field, EnfResult code, const char *format,
+            ...);
 /** The same for a member of a record: ENF_MAP_BAD(check, cells, i, origin, code, format, …). */
 #define ENF_MAP_BAD(check, array, record, field, ...)                                                                          \
     enf_map_bad((check), ENF_CHUNK_##array, &(check)->map->array[record].field, #field, __VA_ARGS__)

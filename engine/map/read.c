@@ -8,13 +8,13 @@
 #define MAP_SIZE_MAX (UINT64_C(1) << 33)
 
 static EnfResult read_header(EnfMap *map, EnfCursor *cursor, EnfError *error) {
-    const uint8_t *magic = enf_cursor_bytes(cursor, 8);
+    const uint8_t *magic = enf_cursor_bytes(cursor, sizeof enf_map_magic);
     uint32_t version = enf_cursor_u32(cursor), endian = enf_cursor_u32(cursor);
     uint64_t size = enf_cursor_u64(cursor);
     map->source_hash = enf_cursor_u64(cursor);
     map->hash = enf_cursor_u64(cursor);
     uint32_t chunk_count = enf_cursor_u32(cursor);
-    if (magic && memcmp(magic, ENF_MAP_MAGIC, 8) != 0) {
+    if (magic && memcmp(magic, enf_map_magic, sizeof enf_map_magic) != 0) {
         return enf_error_set(error, ENF_ERROR_MAGIC, ENF_MAP_AT_MAGIC, "header: not an Enfilade map");
     }
     if (cursor->size < ENF_MAP_FRONT_SIZE) {
