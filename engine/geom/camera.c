@@ -6,34 +6,38 @@
 
 /* ---- camera ----------------------------------------------------------------------------------------------------- */
 
-typedef struct Turn {
+typedef struct SineCosine {
     double sin, cos;
-} Turn;
+} SineCosine;
 
 /* Whole quarter turns are taken off in degrees, where they are exact: 90° has a cosine of 0, not of 6e-17, and a camera
  * that looks along an axis has an exact frame. */
-static Turn turn_of(double degrees) {
+static SineCosine turn_of(double degrees) {
     double rest = fmod(degrees, 360.0);
     double quarters = rint(rest / 90.0);
     double radians = (rest - 90.0 * quarters) * (ENF_PI / 180.0);
     double s = enf_sin(radians), c = enf_cos(radians);
     switch ((int)quarters & 3) {
     case 1:
-        return (Turn){c, -s};
+        return (SineCosine){c, -s};
     case 2:
-        return (Turn){-s, -c};
+        return (SineCosine){-s, -c};
     case 3:
-        return (Turn){-c, s};
+        return (SineCosine){-c, s};
     default:
-        return (Turn){s, c};
+        return (SineCosine){s, c};
     }
 }
 
-EnfCamera enf_camera(EnfVec3 eye_ws, double yaw_deg, double pitch_deg, double roll_deg, double fov_y_deg, uint32_t width_px,
-                     uint32_t height_px) {
+EnfTurn enf_turn(double yaw_deg, double pitch_deg, double roll_deg) {
+    EnfTurn turn = {yaw_deg, pitch_deg, roll_deg};
+    return turn;
+}
+
+EnfCamera enf_camera(EnfVec3 eye_ws, EnfTurn turn, double fov_y_deg, uint32_t width_px, uint32_t height_px) {
     ENF_ASSERT(fov_y_deg > 0.0 && fov_y_deg <= 170.0);
     ENF_ASSERT(width_px > 0 && height_px > 0);
-    Turn yaw = turn_of(yaw_deg), pitch = turn_of(pitch_deg), roll = turn_of(roll_deg);
+    SineCosine yaw = turn_of(turn.yaw_deg), pitch = turn_of(turn.pitch_deg), roll = turn_of(turn.roll_deg);
     EnfVec3 right = enf_v3(yaw.cos, 0.0, -yaw.sin);
     EnfVec3 up = enf_v3(yaw.sin * pitch.sin, pitch.cos, yaw.cos * pitch.sin);
     EnfCamera camera;

@@ -7,7 +7,7 @@
 EnfView enf_view_default(void) {
     EnfView view;
     memset(&view, 0, sizeof view);
-    view.camera = enf_camera(enf_v3(0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 60.0, 640, 480);
+    view.camera = enf_camera(enf_v3(0.0, 0.0, 0.0), enf_turn(0.0, 0.0, 0.0), 60.0, 640, 480);
     view.cell = ENF_NONE;
     view.cull = ENF_CULL_WORKLIST;
     view.window = ENF_WINDOW_BOX;

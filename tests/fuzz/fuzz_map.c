@@ -19,7 +19,7 @@ static void look_around(const EnfMap *map) {
     }
     if (enf_vis_create(&vis, map, NULL, NULL) == ENF_OK) {
         EnfView view = enf_view_default();
-        view.camera = enf_camera(enf_v3(0.5, 1.7, 0.25), 40, -5, 0, 70, 320, 240);
+        view.camera = enf_camera(enf_v3(0.5, 1.7, 0.25), enf_turn(40, -5, 0), 70, 320, 240);
         view.cell = enf_map_locate(map, view.camera.eye_ws);
         enf_vis_run(vis, &portals, &view);
         enf_vis_destroy(vis);

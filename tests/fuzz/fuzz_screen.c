@@ -29,7 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     }
     count = count > ENF_POLYGON_MAX ? ENF_POLYGON_MAX : count;
     memcpy(points, data + 16, count * sizeof points[0]);
-    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), 30, 10, 0, 60, 640, 480);
+    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(30, 10, 0), 60, 640, 480);
     EnfWindow parent = window_from(data, enf_window_full(&camera)), box = parent;
     if (enf_project_box(&camera, points, count, parent, &box) == ENF_PROJECT_WINDOW) {
         require(enf_window_contains(parent, box));

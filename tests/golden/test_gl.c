@@ -171,7 +171,7 @@ static EnfView random_view(const EnfRooms *rooms, EnfTestRng *rng, uint32_t roun
     } while (enf_rooms_in_furniture(rooms, eye, 0.1));
     EnfView view = enf_view_default();
     double roll = round % 3 ? 0.0 : enf_test_double(rng, -180.0, 180.0);
-    view.camera = enf_camera(eye, enf_test_double(rng, -180.0, 180.0), enf_test_double(rng, -60.0, 60.0), roll,
+    view.camera = enf_camera(eye, enf_turn(enf_test_double(rng, -180.0, 180.0), enf_test_double(rng, -60.0, 60.0), roll),
                              enf_test_double(rng, 30.0, 100.0), WIDTH, HEIGHT);
     view.cell = enf_rooms_cell_at(rooms, eye);
     return view;
@@ -312,7 +312,7 @@ static void shoot_middle(const EnfMap *map, uint8_t color[4], uint32_t *id) {
     Stage stage;
     open_stage(&stage, map, ENF_CONTEXT_ANY);
     EnfView view = enf_view_default();
-    view.camera = enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 60, WIDTH, HEIGHT);
+    view.camera = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 60, WIDTH, HEIGHT);
     shoot_all(&stage, &view);
     memcpy(color, stage.pictures[0] + ((size_t)HEIGHT / 2 * WIDTH + WIDTH / 2) * 4, 4);
     *id = id_at(stage.pictures[1], WIDTH / 2, HEIGHT / 2);

@@ -119,7 +119,7 @@ static inline EnfCamera any_camera(EnfTestRng *rng) {
     double fov = enf_test_chance(rng, 8) ? any_size(rng, -1.0, 2.2304) : enf_test_double(rng, 30.0, 110.0);
     uint32_t width = enf_test_chance(rng, 8) ? 1 + enf_test_below(rng, 8192) : 640;
     uint32_t height = width == 640 ? 480 : width / 2 + 1;
-    return enf_camera(enf_v3(0, 0, 0), yaw, pitch, roll, fov, width, height);
+    return enf_camera(enf_v3(0, 0, 0), enf_turn(yaw, pitch, roll), fov, width, height);
 }
 
 /** Usually a part of the picture; sometimes all of it, sometimes a step or two. */

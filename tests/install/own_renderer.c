@@ -54,7 +54,7 @@ int main(int argc, char **argv) {
     }
     EnfView view = enf_view_default();
     EnfVec3 eye_ws = enf_v3(atof(argv[2]), atof(argv[3]), atof(argv[4]));
-    view.camera = enf_camera(eye_ws, atof(argv[5]), 0, 0, 60, WIDTH, HEIGHT);
+    view.camera = enf_camera(eye_ws, enf_turn(atof(argv[5]), 0, 0), 60, WIDTH, HEIGHT);
     view.cell = enf_map_locate(&map, eye_ws);
     const EnfVisSet *seen = enf_vis_run(vis, &portals, &view);
     for (uint32_t i = 0; i < seen->entry_count; i++) {

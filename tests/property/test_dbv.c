@@ -232,7 +232,7 @@ static void move_eye(Stage *stage, EnfTestRng *rng, Eye eye, int64_t tick, EnfVi
         at = enf_v3(15.0 + 14.0 * enf_sin(t), 1.6, 12.5 + 11.0 * enf_cos(1.7 * t));
     }
     double yaw = eye == EYE_STILL ? 40.0 : enf_test_double(rng, 0.0, 4.0) + (double)tick;
-    view->camera = enf_camera(at, yaw, 0.0, 0.0, 75.0, 640, 480);
+    view->camera = enf_camera(at, enf_turn(yaw, 0.0, 0.0), 75.0, 640, 480);
     view->cell = enf_rooms_cell_at(&stage->rooms, at);
 }
 

@@ -97,7 +97,7 @@ static EnfPyramid random_pyramid(EnfTestRng *rng) {
         return pyramid;
     }
     EnfVec3 eye = enf_v3_from_f(random_point(rng, 30.0f));
-    EnfCamera camera = enf_camera(eye, enf_test_double(rng, -180, 180), enf_test_double(rng, -89, 89), 0.0,
+    EnfCamera camera = enf_camera(eye, enf_turn(enf_test_double(rng, -180, 180), enf_test_double(rng, -89, 89), 0.0),
                                   enf_test_double(rng, 10, 120), 640, 480);
     EnfBox3f bounds = {{-64, -64, -64}, {64, 64, 64}};
     EnfWindow full = enf_window_full(&camera);

@@ -20,7 +20,7 @@ static void tolerances_fit_together(void **state) {
     (void)state;
     /* What is seen of a polygon beyond the tolerance lies deeper than the plane that portals are cut at, even in the
      * corner of the widest picture. */
-    EnfCamera widest = enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 170, 1920, 1080);
+    EnfCamera widest = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 170, 1920, 1080);
     double corner = sqrt(1.0 + widest.tan_x * widest.tan_x + widest.tan_y * widest.tan_y);
     assert_true(ENF_TOL_PORTAL_EYE / corner > 2.0 * ENF_TOL_EYE_PLANE);
     assert_true(ENF_TOL_PORTAL_EYE > 8.0 * ENF_GRID_STEP * sqrt(3.0)); /* an opening may be a step off */
@@ -91,7 +91,7 @@ static void the_next_room_stays_while_walking_in(void **state) {
                 door[i] = enf_sub(door[i], eye);
             }
             for (int yaw = 110; yaw <= 250; yaw += 35) {
-                EnfCamera camera = enf_camera(eye, yaw, 0, 0, 60, 640, 480);
+                EnfCamera camera = enf_camera(eye, enf_turn(yaw, 0, 0), 60, 640, 480);
                 EnfWindow full = enf_window_full(&camera), out;
                 EnfProject what = enf_project_box(&camera, door, 4, full, &out);
                 /* beside the jamb and looking away from the doorway, it is out of the picture */
@@ -110,7 +110,7 @@ static void the_next_room_stays_while_walking_in(void **state) {
  * parent's window (PITFALLS 3, the game that froze). */
 static void openings_of_one_plane_stay_apart(void **state) {
     (void)state;
-    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), 90, 0, 0, 60, 640, 480);
+    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(90, 0, 0), 60, 640, 480);
     uint32_t parents = 0;
     for (int i = -500; i < 500; i++) {
         double x0 = (double)i + 0.25, x1 = (double)i + 0.75;
@@ -130,7 +130,7 @@ static void a_step_beyond_the_plane_is_still_inside(void **state) {
         double z = (double)steps * ENF_GRID_STEP;
         EnfVec3 door[4] = {{-0.5, -1.6, z}, {0.5, -1.6, z}, {0.5, 0.4, z}, {-0.5, 0.4, z}};
         for (int yaw = 0; yaw < 360; yaw += 30) {
-            EnfCamera camera = enf_camera(enf_v3(0, 0, 0), yaw, 0, 0, 60, 640, 480);
+            EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(yaw, 0, 0), 60, 640, 480);
             EnfWindow out;
             assert_int_equal(project(&camera, door, 4, &out), ENF_PROJECT_PARENT);
             assert_true(is_parent(out));

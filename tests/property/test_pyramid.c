@@ -174,7 +174,7 @@ static void what_is_clearly_outside_is_rejected(void **state) {
 
 static void planes_are_where_the_header_says(void **state) {
     (void)state;
-    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 90, 100, 100);
+    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 90, 100, 100);
     EnfBox3f bounds = {{-10, -10, -10}, {10, 10, 10}};
     EnfPyramid p;
     enf_pyramid(&camera, enf_window_full(&camera), NULL, enf_v3(0, 0, 0), bounds, &p);
@@ -201,7 +201,7 @@ static void planes_are_where_the_header_says(void **state) {
 static void what_is_not_finite_is_kept(void **state) {
     (void)state;
     EnfBox3f unit = {{-1, -1, -1}, {1, 1, 1}};
-    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 90, 100, 100);
+    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 90, 100, 100);
     EnfWindow full = enf_window_full(&camera), step = {800, 800, 801, 801};
     const float bad[] = {NAN, INFINITY, FLT_MAX};
     EnfPyramid p;

@@ -151,7 +151,7 @@ static void a_million_portals_are_contained(void **state) {
 /* ---- single cases ----------------------------------------------------------------------------------------------- */
 
 static EnfCamera plain_camera(void) {
-    return enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 60, 640, 480);
+    return enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 60, 640, 480);
 }
 
 static void what_is_not_finite_passes_the_parent(void **state) {
@@ -199,7 +199,7 @@ static void a_wild_ring_stays_in_bounds(void **state) {
 
 static void known_portals_have_known_windows(void **state) {
     (void)state;
-    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), 0, 0, 0, 90, 640, 640);
+    EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 90, 640, 640);
     EnfWindow full = enf_window_full(&camera), out, none = {0, 0, 0, 0};
     assert_true(full.x0 == 0 && full.y0 == 0 && full.x1 == 10240 && full.y1 == 10240);
     /* A square of half the picture's width: corners at pixels 160 and 480, one step out for the pad. */
@@ -220,13 +220,13 @@ static void known_portals_have_known_windows(void **state) {
 
 static void cameras_look_where_they_are_told(void **state) {
     (void)state;
-    EnfCamera c = enf_camera(enf_v3(1, 2, 3), 90, 0, 0, 90, 200, 100);
+    EnfCamera c = enf_camera(enf_v3(1, 2, 3), enf_turn(90, 0, 0), 90, 200, 100);
     assert_true(c.forward.x == -1.0 && c.forward.y == 0.0 && c.forward.z == 0.0);
     assert_true(c.right.x == 0.0 && c.right.z == -1.0 && c.up.y == 1.0 && c.eye_ws.y == 2.0);
     assert_true(fabs(c.tan_y - 1.0) < 1e-15 && fabs(c.tan_x - 2.0) < 1e-15);
-    c = enf_camera(enf_v3(0, 0, 0), 0, 90, 0, 60, 200, 100);
+    c = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 90, 0), 60, 200, 100);
     assert_true(c.forward.y == 1.0 && c.forward.z == 0.0 && c.up.z == 1.0 && c.right.x == 1.0);
-    c = enf_camera(enf_v3(0, 0, 0), 0, 0, 90, 60, 200, 100); /* the head on the right shoulder: up is to the right */
+    c = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 90), 60, 200, 100); /* the head on the right shoulder: up is to the right */
     assert_true(c.up.x == 1.0 && c.up.y == 0.0 && c.right.y == -1.0 && c.forward.z == -1.0);
     EnfTestRng rng = enf_test_rng(8);
     for (int i = 0; i < 1000; i++) {

@@ -76,7 +76,7 @@ static EnfCamera random_camera(EnfVec3 eye, EnfTestRng *rng) {
     double fov = enf_test_chance(rng, 4) ? enf_test_double(rng, 1.0, 170.0) : 60.0;
     double pitch = enf_test_chance(rng, 2) ? enf_test_double(rng, -90.0, 90.0) : enf_test_double(rng, -10.0, 10.0);
     double roll = enf_test_chance(rng, 3) ? enf_test_double(rng, -180.0, 180.0) : 0.0;
-    return enf_camera(eye, enf_test_double(rng, 0.0, 360.0), pitch, roll, fov, size[0], size[1]);
+    return enf_camera(eye, enf_turn(enf_test_double(rng, 0.0, 360.0), pitch, roll), fov, size[0], size[1]);
 }
 
 /* What a few rays of this view meet; one run of rays serves every mode. */
@@ -188,7 +188,7 @@ static void test_cost_follows_what_is_seen(void **state) {
         Stage stage;
         open_stage(&stage, &def);
         EnfView view = enf_view_default();
-        view.camera = enf_camera(enf_v3(2.5, 1.5, 2.5), 30.0, 0.0, 0.0, 60.0, 640, 480);
+        view.camera = enf_camera(enf_v3(2.5, 1.5, 2.5), enf_turn(30.0, 0.0, 0.0), 60.0, 640, 480);
         view.cell = 0;
         seen[size] = enf_vis_run(stage.vis, &stage.portals, &view)->counters;
         close_stage(&stage);

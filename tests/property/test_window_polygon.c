@@ -161,7 +161,7 @@ static void chains_are_contained(void **state) {
     EnfTestRng rng = enf_test_rng(2);
     uint32_t open = 0;
     for (uint32_t i = 0; i < enf_test_rounds(20000, 400000); i++) {
-        EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_test_double(&rng, 0, 360), 10, 0, 60, 640, 480);
+        EnfCamera camera = enf_camera(enf_v3(0, 0, 0), enf_turn(enf_test_double(&rng, 0, 360), 10, 0), 60, 640, 480);
         EnfWindowPolygon window = enf_window_polygon_from_box(enf_window_full(&camera)), whole = window;
         ExactPolygon seen = {0, {{quad(0.0), quad(0.0), quad(0.0)}}};
         for (int k = 0; k < 3; k++) {

@@ -68,7 +68,7 @@ static void close_row(Row *row) {
 /* From room a, looking along the doors (yaw -90 is +x). */
 static EnfView along_the_doors(void) {
     EnfView view = enf_view_default();
-    view.camera = enf_camera(enf_v3(1.0, 1.0, 2.0), -90.0, 0.0, 0.0, 60.0, 640, 480);
+    view.camera = enf_camera(enf_v3(1.0, 1.0, 2.0), enf_turn(-90.0, 0.0, 0.0), 60.0, 640, 480);
     view.cell = 0;
     return view;
 }
@@ -104,7 +104,7 @@ static void test_an_enfilade_is_seen_to_its_end(void **state) {
             }
         }
     }
-    view.camera = enf_camera(enf_v3(1.0, 1.0, 2.0), 90.0, 0.0, 0.0, 60.0, 640, 480); /* looking at the wall */
+    view.camera = enf_camera(enf_v3(1.0, 1.0, 2.0), enf_turn(90.0, 0.0, 0.0), 60.0, 640, 480); /* looking at the wall */
     assert_int_equal(look(&row, &view)->cell_count, 1);
     close_row(&row);
 }
@@ -148,7 +148,7 @@ static void test_the_eye_in_the_doorway(void **state) {
         for (uint32_t cell = 0; cell < 2; cell++) {
             for (double yaw = 0.0; yaw < 360.0; yaw += 15.0) {
                 EnfView view = along_the_doors();
-                view.camera = enf_camera(enf_v3(4.0 + beside[i], 1.0, 2.0), yaw, 0.0, 0.0, 60.0, 640, 480);
+                view.camera = enf_camera(enf_v3(4.0 + beside[i], 1.0, 2.0), enf_turn(yaw, 0.0, 0.0), 60.0, 640, 480);
                 view.cell = cell;
                 const EnfVisSet *set = look(&row, &view);
                 assert_true(sees(set, 0) && sees(set, 1));
@@ -165,7 +165,7 @@ static void test_an_eye_outside_sees_the_frustum(void **state) {
     open_row(&row);
     EnfView view = along_the_doors();
     view.cell = ENF_NONE;
-    view.camera = enf_camera(enf_v3(-5.0, 1.0, 2.0), -90.0, 0.0, 0.0, 60.0, 640, 480);
+    view.camera = enf_camera(enf_v3(-5.0, 1.0, 2.0), enf_turn(-90.0, 0.0, 0.0), 60.0, 640, 480);
     const EnfVisSet *set = look(&row, &view);
     assert_true(set->counters.outside);
     assert_int_equal(set->cell_count, ROOMS);
@@ -184,7 +184,7 @@ static void test_open_cells_hide_nothing(void **state) {
     assert_true(set->counters.open);
     assert_int_equal(set->cell_count, ROOMS);
     view.cell = 1;
-    view.camera = enf_camera(enf_v3(6.0, 1.0, 2.0), -90.0, 0.0, 0.0, 60.0, 640, 480);
+    view.camera = enf_camera(enf_v3(6.0, 1.0, 2.0), enf_turn(-90.0, 0.0, 0.0), 60.0, 640, 480);
     assert_int_equal(look(&row, &view)->cell_count, 1);
     close_row(&row);
 }

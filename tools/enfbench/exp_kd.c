@@ -51,7 +51,8 @@ static void fill_pyramids(KdScene *scene, double side, uint64_t *seed) {
     EnfBox3f bounds = {{0.0F, 0.0F, 0.0F}, {(float)side + 1.0F, 5.0F, (float)side + 1.0F}};
     for (uint32_t i = 0; i < scene->frames; i++) {
         EnfVec3 eye = enf_v3(random_unit(seed) * side, 1.7, random_unit(seed) * side);
-        EnfCamera camera = enf_camera(eye, random_unit(seed) * 360.0, random_unit(seed) * 40.0 - 20.0, 0.0, 60.0, 640, 480);
+        EnfCamera camera = enf_camera(eye, enf_turn(random_unit(seed) * 360.0, random_unit(seed) * 40.0 - 20.0, 0.0), 60.0, 640,
+                                      480);
         EnfWindow full = enf_window_full(&camera);
         EnfWindow window = {full.x1 / 4, full.y1 / 4, full.x1 * 3 / 4, full.y1 * 3 / 4};
         enf_pyramid(&camera, window, NULL, enf_v3(0.0, 0.0, 0.0), bounds, &scene->pyramids[i]);

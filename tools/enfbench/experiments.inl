@@ -4,6 +4,6 @@ BENCH(L1, bench_l1, "Luebke & Georges 1995: whole frames along a path, every tra
 BENCH(vis, bench_vis, "visibility of a frame alone (traversal and kd queries, one core), every traversal and window",
       "scene=palace,freedoom,buildings path=CSV frames=2000 width=640 height=480 fov=60 repeat=5 check=20 context=any")
 BENCH(compile, bench_compile, "compile time against size: grids of rooms with doors and furniture",
-      "rooms=100,500,2000,7000 triangles=25 furniture=0 repeat=1")
+      "rooms=100,500,2000,7000 tables=1 repeat=1")
 BENCH(kd, bench_kd, "kd query with each SIMD variant against brute force over all boxes",
       "boxes=1000,10000,100000 frames=200 seed=1")

@@ -114,7 +114,7 @@ static bool make_views(BenchRun *run, BenchScene *scene, const EnfPathCsv *path,
         last = eye;
         if (i == (uint32_t)((uint64_t)frame * path->count / scene->view_count)) {
             scene->views[frame] = enf_view_default();
-            scene->views[frame].camera = enf_camera(eye, row->yaw_deg, row->pitch_deg, 0.0, fov, width, height);
+            scene->views[frame].camera = enf_camera(eye, enf_turn(row->yaw_deg, row->pitch_deg, 0.0), fov, width, height);
             scene->views[frame].cell = cell;
             frame++;
         }

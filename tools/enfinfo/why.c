@@ -294,8 +294,9 @@ static int answer(Why *why) {
 
 int info_why(const EnfMap *map, const Options *options) {
     Why why = {.map = map, .options = options, .view = enf_view_default()};
-    why.view.camera = enf_camera(enf_v3(options->eye[0], options->eye[1], options->eye[2]), options->yaw_deg,
-                                 options->pitch_deg, 0.0, options->fov_y_deg, options->size[0], options->size[1]);
+    why.view.camera = enf_camera(enf_v3(options->eye[0], options->eye[1], options->eye[2]),
+                                 enf_turn(options->yaw_deg, options->pitch_deg, 0.0), options->fov_y_deg, options->size[0],
+                                 options->size[1]);
     why.view.window = options->window ? ENF_WINDOW_POLYGON : ENF_WINDOW_BOX;
     EnfError error;
     int status = ENF_EXIT_FAILURE;

@@ -53,7 +53,7 @@ void viewer_close(Viewer *viewer) {
 
 EnfCamera viewer_camera(const Viewer *viewer, const Pose *pose) {
     const Options *o = viewer->options;
-    EnfCamera camera = enf_camera(pose->eye_ws, pose->yaw_deg, pose->pitch_deg, o->roll_deg, o->fov_y_deg, o->size[0],
+    EnfCamera camera = enf_camera(pose->eye_ws, enf_turn(pose->yaw_deg, pose->pitch_deg, o->roll_deg), o->fov_y_deg, o->size[0],
                                   o->size[1]);
     return camera;
 }

@@ -34,10 +34,15 @@ typedef struct EnfCamera {
     uint32_t width_px, height_px;
 } EnfCamera;
 
-/** Yaw counter-clockwise about +Y with 0 looking down −Z, pitch up positive, roll about the line of sight (clockwise as
- *  seen by the viewer's head tilting right), all in degrees; `fov_y_deg` in (0, 170]. */
-EnfCamera enf_camera(EnfVec3 eye_ws, double yaw_deg, double pitch_deg, double roll_deg, double fov_y_deg, uint32_t width_px,
-                     uint32_t height_px);
+/** Which way a head is turned, degrees: yaw counter-clockwise about +Y with 0 looking down −Z, pitch up positive, roll about the
+ *  line of sight (the head tilts to its right). */
+typedef struct EnfTurn {
+    double yaw_deg, pitch_deg, roll_deg;
+} EnfTurn;
+EnfTurn enf_turn(double yaw_deg, double pitch_deg, double roll_deg);
+
+/** The camera of an eye; `fov_y_deg` in (0, 170], width and height at least 1. */
+EnfCamera enf_camera(EnfVec3 eye_ws, EnfTurn turn, double fov_y_deg, uint32_t width_px, uint32_t height_px);
 
 EnfWindow enf_window_full(const EnfCamera *camera); /**< [0, 16 w] × [0, 16 h] */
 bool enf_window_is_empty(EnfWindow w);
