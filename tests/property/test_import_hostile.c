@@ -340,12 +340,29 @@ static void amplification_is_bounded(void **state) {
     free(text.text);
 }
 
+/* Names that no rule looks at may be given again and again; the rewriting must not grow by them. */
+static void repeated_names_do_no_harm(void **state) {
+    (void)state;
+    EnfTestText text = {0};
+    enf_test_put(&text, "{" ASSET);
+    for (int i = 0; i < 20000; i++) {
+        enf_test_put(&text, i % 2 ? ",\"skins\":0" : ",\"extras\":1");
+    }
+    enf_test_put(&text, ",\"nodes\":[{\"extras\":1,\"extras\":2,\"extras\":{}}]}");
+    EnfTestImport import = enf_test_import_text(text.text);
+    assert_int_equal(import.result, ENF_OK);
+    assert_string_equal(import.source.nodes[0].extras, "{}");
+    enf_test_import_free(&import);
+    free(text.text);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(validator_files_do_no_harm), cmocka_unit_test(json_suite_is_decided),
     cmocka_unit_test(truncations_are_refused),    cmocka_unit_test(truncations_of_chunks_are_refused),
     cmocka_unit_test(flipped_bits_do_no_harm),    cmocka_unit_test(changed_characters_do_no_harm),
     cmocka_unit_test(nesting_is_bounded),         cmocka_unit_test(nesting_below_the_bound_is_read),
     cmocka_unit_test(refusals_name_the_place),    cmocka_unit_test(amplification_is_bounded),
+    cmocka_unit_test(repeated_names_do_no_harm),
 };
 
 ENF_TEST_MAIN(tests)

@@ -11,7 +11,7 @@
  *  ENF_ERROR_RANGE with JSON path and byte offset. Unknown extensionsUsed become findings. */
 EnfResult enf_gltf_check(const EnfJson *json, EnfDiagnosis *diagnosis, EnfError *error);
 
-/** The text for tinygltf: buffers, images and skins emptied (we read those ourselves, or not at all), and every accessor
+/** The text for tinygltf: buffers, images, skins, extras and bounds replaced by zeros (we read those ourselves, or not at all), and every accessor
  *  without a buffer view given one that stands for none (tinygltf refuses such indices). `*view_count` receives the number of
  *  the file's own views. Free `*text` with enf_free(NULL, *text, *size, 1). Errors: ENF_ERROR_MEMORY. */
 EnfResult enf_gltf_fence(const EnfJson *json, char **text, size_t *size, uint32_t *view_count, EnfError *error);

@@ -24,15 +24,36 @@ static void insert(Writer *writer, const char *text) {
     writer->length += length;
 }
 
-static void empty_array(Writer *writer, uint32_t value) {
+/* A zero in place of a value, never longer than what it replaces (a name may be given a million times). */
+static void zero(Writer *writer, uint32_t value) {
     copy_until(writer, writer->json->values[value].start);
-    insert(writer, "[]");
+    insert(writer, "0");
     writer->copied = writer->json->values[value].end;
+}
+
+/* tinygltf would build numbers and maps out of what nobody asks it for: zeros in their place cost nothing. */
+static void zero_members(Writer *writer, uint32_t object, const char *const *keys) {
+    const EnfJson *json = writer->json;
+    for (uint32_t name = object + 1; name < json->values[object].next; name = json->values[name + 1].next) {
+        for (const char *const *key = keys; *key; key++) {
+            if (enf_json_equals(json, name, *key)) {
+                zero(writer, name + 1);
+            }
+        }
+    }
+}
+
+static void trim_nodes(Writer *writer, uint32_t array) {
+    static const char *const keys[] = {"extras", NULL};
+    for (uint32_t v = array + 1; v < writer->json->values[array].next; v = writer->json->values[v].next) {
+        zero_members(writer, v, keys);
+    }
 }
 
 enum { INSERTION = 64 }; /* the longest insertion into an accessor, in bytes */
 
 static void mend_accessors(Writer *writer, uint32_t array, uint32_t view_count) {
+    static const char *const keys[] = {"min", "max", "name", NULL};
     const EnfJson *json = writer->json;
     for (uint32_t v = array + 1; v < json->values[array].next; v = json->values[v].next) {
         if (enf_json_member(json, v, "bufferView") == ENF_NONE) {
@@ -41,6 +62,7 @@ static void mend_accessors(Writer *writer, uint32_t array, uint32_t view_count) 
             snprintf(member, sizeof member, "\"bufferView\":%u,", view_count);
             insert(writer, member);
         }
+        zero_members(writer, v, keys);
     }
 }
 
@@ -53,7 +75,7 @@ static void append_view(Writer *writer, uint32_t array) {
 
 static void write_fenced(Writer *writer, uint32_t view_count) {
     const EnfJson *json = writer->json;
-    static const char *const emptied[] = {"buffers", "images", "skins"};
+    static const char *const hidden[] = {"buffers", "images", "skins"};
     uint32_t views = enf_json_member(json, 0, "bufferViews");
     if (views == ENF_NONE) {
         copy_until(writer, json->values[0].start + 1);
@@ -61,13 +83,15 @@ static void write_fenced(Writer *writer, uint32_t view_count) {
     }
     for (uint32_t name = 1; name < json->values[0].next; name = json->values[name + 1].next) {
         uint32_t value = name + 1;
-        for (size_t i = 0; i < sizeof emptied / sizeof *emptied; i++) {
-            if (enf_json_equals(json, name, emptied[i])) {
-                empty_array(writer, value);
+        for (size_t i = 0; i < sizeof hidden / sizeof *hidden; i++) {
+            if (enf_json_equals(json, name, hidden[i])) {
+                zero(writer, value);
             }
         }
         if (enf_json_equals(json, name, "accessors")) {
             mend_accessors(writer, value, view_count);
+        } else if (enf_json_equals(json, name, "nodes")) {
+            trim_nodes(writer, value);
         } else if (enf_json_equals(json, name, "bufferViews")) {
             append_view(writer, value);
         }
@@ -87,6 +111,12 @@ EnfResult enf_gltf_fence(const EnfJson *json, char **text, size_t *size, uint32_
     }
     Writer writer = {.json = json, .out = *text};
     write_fenced(&writer, *view_count);
-    memset(*text + writer.length, ' ', *size - writer.length);
+    char *fitting = enf_realloc(NULL, *text, *size, writer.length, 1);
+    if (fitting) {
+        *text = fitting;
+        *size = writer.length;
+    } else {
+        memset(*text + writer.length, ' ', *size - writer.length);
+    }
     return ENF_OK;
 }
