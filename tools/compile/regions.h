@@ -18,12 +18,14 @@ typedef struct EnfSpace {
     uint32_t material_count;
     uint32_t *portal_first;    /**< half-portals of cell c: [portal_first[c], portal_first[c + 1]) */
     uint32_t *fan_first;       /**< triangles of portal p, as a fan: [fan_first[p], fan_first[p + 1]) */
+    bool *furnished;           /**< by cell: its author put sealing triangles into it */
     uint32_t cell_count, portal_count;
     EnfShells shells;
     EnfKdBuilt tree;           /**< items are cells, world boxes */
 } EnfSpace;
 
-/** Shells of every cell but OUTSIDE, from triangles that have a home and from portals. Free with enf_space_free. */
+/** Shells of every cell but OUTSIDE, from its triangles and portals. What is loose counts only where the author gave the cell nothing:
+ *  a carpet under many rooms is the shell of none. Free with enf_space_free. */
 bool enf_space_create(EnfSpace *space, const EnfLayout *layout, const EnfSoup *soup);
 void enf_space_free(EnfSpace *space);
 

@@ -46,12 +46,31 @@ static uint32_t portal_of_fan(const EnfSpace *space, uint32_t triangle) {
     return low;
 }
 
+static bool is_sealing(const EnfSpace *space, const EnfSoupTriangle *triangle) {
+    return triangle->cell < space->cell_count && !(space->faces[triangle->material] & ENF_FACE_OPEN);
+}
+
+static bool is_loose(const EnfSpace *space, const EnfSoupTriangle *triangle) {
+    return space->layout->node_cells[triangle->node] == ENF_NONE;
+}
+
+static bool note_furnished(EnfSpace *space) {
+    space->furnished = calloc((size_t)space->cell_count + 1, sizeof *space->furnished);
+    for (uint32_t i = 0; space->furnished != NULL && i < space->soup->triangle_count; i++) {
+        const EnfSoupTriangle *triangle = &space->soup->triangles[i];
+        if (is_sealing(space, triangle) && !is_loose(space, triangle)) {
+            space->furnished[triangle->cell] = true;
+        }
+    }
+    return space->furnished != NULL;
+}
+
 /* Soup triangles first, then the portals as seen from inside. */
 static uint32_t shell_triangle(const void *user, uint32_t i, EnfVec3 corners[3]) {
     const EnfSpace *space = user;
     if (i < space->soup->triangle_count) {
         const EnfSoupTriangle *triangle = &space->soup->triangles[i];
-        if (triangle->cell >= space->cell_count || (space->faces[triangle->material] & ENF_FACE_OPEN)) {
+        if (!is_sealing(space, triangle) || (is_loose(space, triangle) && space->furnished[triangle->cell])) {
             return ENF_NONE;
         }
         enf_soup_corners(space->soup, i, corners);
@@ -85,7 +104,7 @@ bool enf_space_create(EnfSpace *space, const EnfLayout *layout, const EnfSoup *s
     if (layout->cell_count > 0 && (layout->cells[layout->cell_count - 1].flags & ENF_CELL_OUTSIDE)) {
         space->cell_count--;
     }
-    bool ok = note_materials(space) && number_portals(space);
+    bool ok = note_materials(space) && number_portals(space) && note_furnished(space);
     uint32_t count = ok ? soup->triangle_count + space->fan_first[layout->portal_count] : 0;
     ok = ok && enf_shells_create(&space->shells, space->cell_count, count, shell_triangle, space);
     if (ok) {
@@ -109,6 +128,7 @@ void enf_space_free(EnfSpace *space) {
     free(space->faces);
     free(space->portal_first);
     free(space->fan_first);
+    free(space->furnished);
     enf_shells_free(&space->shells);
     enf_kd_built_free(&space->tree);
     memset(space, 0, sizeof *space);
