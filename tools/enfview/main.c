@@ -95,7 +95,7 @@ static EnfCliResult check(const EnfCli *cli, Options *o, const Raw *raw, uint32_
 }
 
 static EnfCliResult parse(Options *o, int argc, char **argv) {
-    Raw raw = {{NAN, NAN, NAN}, NULL, {{NULL}, 0}};
+    Raw raw = {{(double)NAN, (double)NAN, (double)NAN}, NULL, {{NULL}, 0}};
     const EnfOption options[] = {
         {"--eye", NULL, ENF_OPTION_VECTOR, raw.eye, "X,Y,Z", NULL, "the eye, metres; y is up"},
         {"--yaw", NULL, ENF_OPTION_NUMBER, &o->pose.yaw_deg, "DEG", NULL, "counter-clockwise about +Y; 0 looks down -Z"},
