@@ -33,9 +33,9 @@ static uint32_t scalar_boxes(const EnfSimdPlanes *planes, const float *boxes, ui
     uint32_t mask = 0xff;
     for (uint64_t rest = active; rest && mask; rest &= rest - 1) {
         uint32_t i = enf_simd_lowest(rest);
-        const float *x = boxes + (planes->nx[i] >= 0.0f ? 24 : 0);
-        const float *y = boxes + (planes->ny[i] >= 0.0f ? 32 : 8);
-        const float *z = boxes + (planes->nz[i] >= 0.0f ? 40 : 16);
+        const float *x = boxes + planes->far_x[i];
+        const float *y = boxes + planes->far_y[i];
+        const float *z = boxes + planes->far_z[i];
         for (uint32_t lane = 0; lane < 8; lane++) {
             float v = ((planes->nx[i] * x[lane] + planes->ny[i] * y[lane]) + planes->nz[i] * z[lane]) + planes->d[i];
             mask &= ~((uint32_t)(v < 0.0f) << lane);
@@ -106,6 +106,11 @@ void enf_simd_planes(EnfSimdPlanes *out, const EnfPyramid *pyramid) {
     copy_padded(out->ny, pyramid->ny, pyramid->count);
     copy_padded(out->nz, pyramid->nz, pyramid->count);
     copy_padded(out->d, pyramid->d, pyramid->count);
+    for (uint32_t i = 0; i < pyramid->count; i++) {
+        out->far_x[i] = pyramid->nx[i] >= 0.0f ? 24 : 0;
+        out->far_y[i] = pyramid->ny[i] >= 0.0f ? 32 : 8;
+        out->far_z[i] = pyramid->nz[i] >= 0.0f ? 40 : 16;
+    }
     out->count = pyramid->count;
     out->all = (UINT64_C(1) << pyramid->count) - 1;
 }

@@ -15,6 +15,8 @@
 /** A pyramid ready for testing. Bit i of an `active` mask is plane i. */
 typedef struct EnfSimdPlanes {
     float nx[ENF_SIMD_PLANES], ny[ENF_SIMD_PLANES], nz[ENF_SIMD_PLANES], d[ENF_SIMD_PLANES];
+    /** Where in eight boxes the corners farthest along a plane's normal lie: a compare for each plane and block saved. */
+    uint8_t far_x[ENF_SIMD_PLANES], far_y[ENF_SIMD_PLANES], far_z[ENF_SIMD_PLANES];
     uint32_t count;
     uint64_t all; /**< the mask with every plane active */
 } EnfSimdPlanes;

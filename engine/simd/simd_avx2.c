@@ -49,9 +49,9 @@ static uint32_t avx2_boxes(const EnfSimdPlanes *planes, const float *boxes, uint
     __m256 out = zero;
     for (uint64_t rest = active; rest; rest &= rest - 1) {
         uint32_t i = enf_simd_lowest(rest);
-        const float *x = boxes + (planes->nx[i] >= 0.0f ? 24 : 0);
-        const float *y = boxes + (planes->ny[i] >= 0.0f ? 32 : 8);
-        const float *z = boxes + (planes->nz[i] >= 0.0f ? 40 : 16);
+        const float *x = boxes + planes->far_x[i];
+        const float *y = boxes + planes->far_y[i];
+        const float *z = boxes + planes->far_z[i];
         __m256 n[4] = {_mm256_broadcast_ss(planes->nx + i), _mm256_broadcast_ss(planes->ny + i),
                        _mm256_broadcast_ss(planes->nz + i), _mm256_broadcast_ss(planes->d + i)};
         __m256 v = dot8(n, _mm256_loadu_ps(x), _mm256_loadu_ps(y), _mm256_loadu_ps(z));

@@ -50,9 +50,9 @@ static uint32_t sse2_boxes(const EnfSimdPlanes *planes, const float *boxes, uint
     __m128 out_low = zero, out_high = zero;
     for (uint64_t rest = active; rest; rest &= rest - 1) {
         uint32_t i = enf_simd_lowest(rest);
-        const float *x = boxes + (planes->nx[i] >= 0.0f ? 24 : 0);
-        const float *y = boxes + (planes->ny[i] >= 0.0f ? 32 : 8);
-        const float *z = boxes + (planes->nz[i] >= 0.0f ? 40 : 16);
+        const float *x = boxes + planes->far_x[i];
+        const float *y = boxes + planes->far_y[i];
+        const float *z = boxes + planes->far_z[i];
         __m128 n[4] = {_mm_set1_ps(planes->nx[i]), _mm_set1_ps(planes->ny[i]), _mm_set1_ps(planes->nz[i]),
                        _mm_set1_ps(planes->d[i])};
         __m128 a = dot4(n, _mm_loadu_ps(x), _mm_loadu_ps(y), _mm_loadu_ps(z));
