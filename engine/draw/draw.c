@@ -28,15 +28,15 @@ struct EnfDraw {
 /* ---- life ------------------------------------------------------------------------------------------------------- */
 
 /* The arrays and how many elements each may need: one table for making and freeing. */
-#define ENF_DRAW_ARRAYS(X)                                                                                             \
-    X(batches, (size_t)map->clusters_count + map->materials_count)                                                     \
-    X(ranges, map->clusters_count)                                                                                     \
-    X(cells, map->cells_count)                                                                                         \
-    X(cell_stamps, map->cells_count)                                                                                   \
-    X(solids, map->clusters_count)                                                                                     \
-    X(grouped, map->clusters_count)                                                                                    \
-    X(material_ends, map->materials_count)                                                                             \
-    X(materials, map->materials_count)                                                                                 \
+#define ENF_DRAW_ARRAYS(X)                                                                                                     \
+    X(batches, (size_t)map->clusters_count + map->materials_count)                                                             \
+    X(ranges, map->clusters_count)                                                                                             \
+    X(cells, map->cells_count)                                                                                                 \
+    X(cell_stamps, map->cells_count)                                                                                           \
+    X(solids, map->clusters_count)                                                                                             \
+    X(grouped, map->clusters_count)                                                                                            \
+    X(material_ends, map->materials_count)                                                                                     \
+    X(materials, map->materials_count)                                                                                         \
     X(blends, map->clusters_count)
 
 EnfResult enf_draw_create(EnfDraw **draw, const EnfMap *map, const EnfAllocator *allocator, EnfError *error) {
@@ -49,8 +49,8 @@ EnfResult enf_draw_create(EnfDraw **draw, const EnfMap *map, const EnfAllocator 
     made->map = map;
     made->allocator = *(allocator ? allocator : enf_default_allocator());
     bool complete = true;
-#define ENF_DRAW_MAKE(array, count)                                                                                    \
-    made->array = enf_alloc(&made->allocator, (count), sizeof *made->array);                                           \
+#define ENF_DRAW_MAKE(array, count)                                                                                            \
+    made->array = enf_alloc(&made->allocator, (count), sizeof *made->array);                                                   \
     complete = complete && (made->array || (count) == 0);
     ENF_DRAW_ARRAYS(ENF_DRAW_MAKE)
 #undef ENF_DRAW_MAKE
@@ -126,8 +126,7 @@ static void add_solid(EnfDraw *draw, uint32_t cluster, uint32_t material, bool m
 static void add_blend(EnfDraw *draw, uint32_t cluster, EnfVec3 eye_ws) {
     const EnfCluster *c = &draw->map->clusters[cluster];
     const double *origin = draw->map->cells[c->cell].origin;
-    EnfVec3 center = enf_v3(0.5 * ((double)c->min[0] + (double)c->max[0]),
-                            0.5 * ((double)c->min[1] + (double)c->max[1]),
+    EnfVec3 center = enf_v3(0.5 * ((double)c->min[0] + (double)c->max[0]), 0.5 * ((double)c->min[1] + (double)c->max[1]),
                             0.5 * ((double)c->min[2] + (double)c->max[2]));
     EnfVec3 to = enf_sub(enf_add(enf_v3(origin[0], origin[1], origin[2]), center), eye_ws);
     EnfDrawKey *key = &draw->blends[draw->blend_count++];

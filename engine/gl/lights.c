@@ -1,7 +1,6 @@
 /* Makes EnfGlLights from the light references of a map. A reference says through which opening a light comes into a cell;
  * the references of one light in one cell are gathered into one light with several windows, so a point that two windows
- * overlap in is lit once. Then each cluster gets the lights whose range and windows touch its box: a fragment loops over
- * few. The result depends on the map alone, never on what is visible: shading is the same culled and unculled. */
+ * overlap in is lit once. Then each cluster gets the lights whose range and windows touch its box: few. The result depends on the map alone, never on what is visible: shading is the same culled and unculled. */
 #include "gl/lights.h"
 
 #include <stdlib.h>
@@ -112,12 +111,11 @@ static bool push_windows(Builder *builder, EnfGlLight *light, const EnfLightRef 
         }
     }
     light->windows = first << 6 | (builder->out->plane_count - first - 1);
-    builder->out->has_windows = true;
     return true;
 }
 
 /* glTF's spot cone as one multiply and add (KHR_lights_punctual, "Inner and Outer Cone Angles"). */
-static void set_aim(Builder *builder, EnfGlLight *out, const EnfLight *light) {
+static void set_aim(EnfGlLight *out, const EnfLight *light) {
     memset(out->aim, 0, sizeof out->aim);
     out->aim_offset = 1.0f;
     if (light->kind == ENF_LIGHT_SPOT) {
@@ -127,7 +125,6 @@ static void set_aim(Builder *builder, EnfGlLight *out, const EnfLight *light) {
             out->aim[i] = light->direction[i] * scale;
         }
         out->aim_offset = -light->outer_cos * scale;
-        builder->out->has_spots = true;
     }
 }
 
@@ -142,7 +139,7 @@ static bool add_light(Builder *builder, const EnfCell *cell, const EnfLightRef *
     }
     bool ranged = !directional && light->range > 0.0f;
     out->inverse_range2 = ranged ? 1.0f / (light->range * light->range) : 0.0f;
-    set_aim(builder, out, light);
+    set_aim(out, light);
     return push_windows(builder, out, refs, order, count);
 }
 
@@ -269,7 +266,7 @@ static void expose(Builder *builder) {
 }
 
 /* Applies the exposure, and lets lights fade out smoothly where they would be too faint to see: ranges that files give or
- * the compiler derives are generous, and each light on a list costs its fragments the same, bright or faint. */
+ * the compiler derives are generous, and each light on a list costs the same, bright or faint. */
 static void expose_light(const Builder *builder, EnfGlLight *light) {
     for (int i = 0; i < 3; i++) {
         light->color[i] *= builder->exposure;

@@ -1,4 +1,4 @@
-/* EnfGlLights: which lights may reach each cluster, as the fragment shader reads it. Pure data, no GL call. */
+/* EnfGlLights: which lights may reach each cluster, as bake.c evaluates them. Pure data, no GL call. */
 #ifndef ENFILADE_GL_LIGHTS_H
 #define ENFILADE_GL_LIGHTS_H
 
@@ -7,7 +7,7 @@
 /** Lights that one cluster can have; planes of all windows through which one of them comes. */
 enum { ENF_GL_LIGHTS_MAX = 256, ENF_GL_LIGHT_PLANES_MAX = 64 };
 
-/** A light on a cluster's list, three texels. Positions are relative to the home cell's origin. A directional light stands
+/** A light on a cluster's list. Positions are relative to the home cell's origin. A directional light stands
  *  very far away; a light that is no spot has an aim of 0 and an offset of 1. */
 typedef struct EnfGlLight {
     float position[3];
@@ -24,7 +24,6 @@ typedef struct EnfGlLights {
                                    window; [0] is such an end: all is lit */
     uint32_t *cluster_lists; /**< a cluster's list: first light << 8 | lights - 1; never empty */
     uint32_t light_count, light_capacity, plane_count, plane_capacity, cluster_count;
-    bool has_spots, has_windows;
 } EnfGlLights;
 
 /** SIZE if the map has more lights than the encoding can number. Free with enf_gl_lights_free, also after a failure. */

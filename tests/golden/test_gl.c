@@ -390,7 +390,6 @@ static void lights_are_listed_where_they_reach(void **state) {
     EnfRooms rooms = make_rooms();
     EnfGlLights lights;
     assert_int_equal(enf_gl_lights_build(&lights, rooms.map, NULL), ENF_OK);
-    assert_false(lights.has_windows || lights.has_spots);
     for (uint32_t c = 0; c < rooms.map->clusters_count; c++) {
         uint32_t first = lights.cluster_lists[c] >> 8, count = (lights.cluster_lists[c] & 255u) + 1;
         assert_true(count <= rooms.map->cells[rooms.map->clusters[c].cell].light_count);
@@ -422,7 +421,6 @@ static void references_of_a_light_are_one(void **state) {
     map.light_planes_count = 2;
     EnfGlLights lights;
     assert_int_equal(enf_gl_lights_build(&lights, &map, NULL), ENF_OK);
-    assert_true(lights.has_windows);
     assert_int_equal(lights.plane_count, 1 + 4);        /* one that lights all; two planes, two ends */
     assert_int_equal(lights.light_count, 1 + 2);        /* the dark one; one a lit cluster */
     assert_int_equal(lights.cluster_lists[0], 1u << 8); /* the first light, in its windows */

@@ -53,8 +53,7 @@ static EnfVec3 cell_origin(const EnfMap *map, uint32_t cell) {
 static bool passes(const Overlay *overlay, const EnfPortalState *state, const EnfVec3 *points_ws, EnfWindow window) {
     const EnfCamera *camera = &overlay->set->cameras[0];
     EnfVec3 eye = enf_sub(camera->eye_ws, cell_origin(&overlay->viewer->map, state->source));
-    if (!(state->flags & ENF_PORTAL_NONPLANAR) &&
-        enf_dot(state->normal, eye) + (double)state->d > (double)state->slab) {
+    if (!(state->flags & ENF_PORTAL_NONPLANAR) && enf_dot(state->normal, eye) + (double)state->d > (double)state->slab) {
         return false;
     }
     EnfVec3 points_eye[ENF_POLYGON_MAX];
