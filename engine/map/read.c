@@ -117,12 +117,14 @@ static EnfResult read_chunks(EnfMap *map, const void *data, size_t size, EnfErro
     return result;
 }
 
-EnfResult enf_map_view(EnfMap *map, const void *data, size_t size, EnfError *error) {
+/* `allocator`: for the check's scratch memory. */
+static EnfResult view(EnfMap *map, EnfSpan bytes, const EnfAllocator *allocator, EnfError *error) {
     memset(map, 0, sizeof *map);
-    if (!data || (uintptr_t)data % ENF_MAP_ALIGN != 0) {
+    if (!bytes.data || (uintptr_t)bytes.data % ENF_MAP_ALIGN != 0) {
         return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "a map's bytes must be 16-byte aligned");
     }
-    EnfResult result = read_chunks(map, data, size, error);
+    map->file.allocator = allocator;
+    EnfResult result = read_chunks(map, bytes.data, bytes.size, error);
     if (result == ENF_OK) {
         result = enf_map_check(map, error);
     }
@@ -130,6 +132,10 @@ EnfResult enf_map_view(EnfMap *map, const void *data, size_t size, EnfError *err
         memset(map, 0, sizeof *map);
     }
     return result;
+}
+
+EnfResult enf_map_view(EnfMap *map, const void *data, size_t size, EnfError *error) {
+    return view(map, (EnfSpan){data, size}, NULL, error);
 }
 
 EnfResult enf_map_read(EnfMap *map, const char *path, const EnfAllocator *allocator, EnfError *error) {
@@ -143,7 +149,7 @@ EnfResult enf_map_read(EnfMap *map, const char *path, const EnfAllocator *alloca
     if (file.size == 0) {
         result = enf_error_set(error, ENF_ERROR_TRUNCATED, 0, "the file is empty");
     } else {
-        result = enf_map_view(map, file.data, file.size, error);
+        result = view(map, (EnfSpan){file.data, file.size}, allocator, error);
     }
     if (result != ENF_OK) {
         enf_file_free(&file);

@@ -333,6 +333,49 @@ static void test_build_refuses(void **state) {
     }
 }
 
+/* Memory that ends after a number of blocks, and is all given back. */
+typedef struct Scarce {
+    uint32_t left, held;
+} Scarce;
+
+static void *scarce_resize(void *user, void *block, size_t old_size, size_t new_size) {
+    Scarce *scarce = user;
+    (void)old_size;
+    if (new_size == 0) {
+        scarce->held -= block != NULL;
+        free(block);
+        return NULL;
+    }
+    if (scarce->left == 0) {
+        return NULL;
+    }
+    scarce->left--;
+    scarce->held += block == NULL;
+    return realloc(block, new_size);
+}
+
+static void test_build_without_memory(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(8);
+    EnfBox3f boxes[50];
+    for (uint32_t i = 0; i < 50; i++) {
+        boxes[i] = random_box(&rng, RANDOM, i);
+    }
+    EnfResult result = ENF_ERROR_MEMORY;
+    for (uint32_t blocks = 0; result != ENF_OK; blocks++) {
+        Scarce scarce = {blocks, 0};
+        EnfAllocator allocator = {scarce_resize, &scarce};
+        EnfKdBuilt built;
+        EnfError error = {0};
+        result = enf_kd_build(&built, boxes, NULL, 50, &allocator, &error);
+        assert_true(result == ENF_OK || result == ENF_ERROR_MEMORY);
+        assert_int_equal(built.nodes != NULL, result == ENF_OK);
+        enf_kd_built_free(&built);
+        assert_int_equal(scarce.held, 0);
+        assert_in_range(blocks, 0, 16);
+    }
+}
+
 /* Near-linear: sixteen times the items cost at most some thirty times the time, and many small trees are cheap. */
 static void test_build_time(void **state) {
     (void)state;
@@ -458,10 +501,18 @@ static void test_check_depth(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_queries),       cmocka_unit_test(test_nan_keeps),           cmocka_unit_test(test_capacity),
-    cmocka_unit_test(test_ray_order),     cmocka_unit_test(test_build_deterministic), cmocka_unit_test(test_build_item_numbers),
-    cmocka_unit_test(test_build_refuses), cmocka_unit_test(test_build_time),          cmocka_unit_test(test_query_time),
-    cmocka_unit_test(test_check_corrupt), cmocka_unit_test(test_check_depth),
+    cmocka_unit_test(test_queries),
+    cmocka_unit_test(test_nan_keeps),
+    cmocka_unit_test(test_capacity),
+    cmocka_unit_test(test_ray_order),
+    cmocka_unit_test(test_build_deterministic),
+    cmocka_unit_test(test_build_item_numbers),
+    cmocka_unit_test(test_build_refuses),
+    cmocka_unit_test(test_build_without_memory),
+    cmocka_unit_test(test_build_time),
+    cmocka_unit_test(test_query_time),
+    cmocka_unit_test(test_check_corrupt),
+    cmocka_unit_test(test_check_depth),
 };
 
 ENF_TEST_MAIN(tests)

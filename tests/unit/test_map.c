@@ -557,6 +557,47 @@ static void test_find_cell(void **state) {
     enf_maker_destroy(maker);
 }
 
+/* Memory that ends after a number of blocks, and is all given back. */
+typedef struct Scarce {
+    uint32_t left, held;
+} Scarce;
+
+static void *scarce_resize(void *user, void *block, size_t old_size, size_t new_size) {
+    Scarce *scarce = user;
+    (void)old_size;
+    if (new_size == 0) {
+        scarce->held -= block != NULL;
+        free(block);
+        return NULL;
+    }
+    if (scarce->left == 0) {
+        return NULL;
+    }
+    scarce->left--;
+    scarce->held += block == NULL;
+    return realloc(block, new_size);
+}
+
+static void test_read_without_memory(void **state) {
+    (void)state;
+    size_t size;
+    free(everything_file(&size)); /* leaves map.enfmap */
+    const char *path = enf_test_temp_path("map.enfmap");
+    EnfResult result = ENF_ERROR_MEMORY;
+    for (uint32_t blocks = 0; result != ENF_OK; blocks++) {
+        Scarce scarce = {blocks, 0};
+        EnfAllocator allocator = {scarce_resize, &scarce};
+        EnfMap map;
+        EnfError error = {0};
+        result = enf_map_read(&map, path, &allocator, &error);
+        assert_true(result == ENF_OK || result == ENF_ERROR_MEMORY);
+        assert_int_equal(map.cells != NULL, result == ENF_OK);
+        enf_map_free(&map);
+        assert_int_equal(scarce.held, 0);
+        assert_in_range(blocks, 0, 16);
+    }
+}
+
 /* An empty map is sound, and answers. */
 static void test_empty(void **state) {
     (void)state;
@@ -579,7 +620,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_round_trip),          cmocka_unit_test(test_layout),      cmocka_unit_test(test_read_errors),
     cmocka_unit_test(test_truncation),          cmocka_unit_test(test_bit_flips),   cmocka_unit_test(test_resealed_damage),
     cmocka_unit_test(test_resealed_truncation), cmocka_unit_test(test_corruptions), cmocka_unit_test(test_error_offset),
-    cmocka_unit_test(test_find_cell),           cmocka_unit_test(test_empty),
+    cmocka_unit_test(test_find_cell),           cmocka_unit_test(test_empty),       cmocka_unit_test(test_read_without_memory),
 };
 
 ENF_TEST_MAIN(tests)
