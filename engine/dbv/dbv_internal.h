@@ -1,6 +1,7 @@
 /* The parts of an EnfDbvIndex and the steps between its files:
  *
- *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; covers, links, LCA
+ *   blocks.c  the boxes of volumes at their places, eight a block
+ *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; covers, LCA
  *   wheel.c   the expiry queue
  *   period.c  how long a volume is valid (the policies)
  *   frame.c   begin, see, end
@@ -8,31 +9,48 @@
 #ifndef ENFILADE_DBV_INTERNAL_H
 #define ENFILADE_DBV_INTERNAL_H
 
+#include "simd/simd.h"
+
 #include <enfilade/dbv.h>
 
 /** Places that one volume hangs on at most. More would cover it tighter and cost more to move: four cells meet in a corner of
  *  rooms, and one is for what lies in no room. */
 #define ENF_DBV_LINKS 5U
 
-/** A volume's link to a place: a doubly linked list a place; an entry's number is object * ENF_DBV_LINKS + link. */
-typedef struct EnfDbvLink {
-    uint32_t place, next, previous;
-} EnfDbvLink;
-
-/** A volume: 128 bytes, two cache lines. */
+/** A volume: 64 bytes, a cache line. Its box stands where it hangs. */
 typedef struct EnfDbvVolume {
-    EnfBox3f box; /**< world */
-    uint32_t wheel_next, wheel_previous;
     int64_t expiry_tick;
+    uint32_t wheel_next, wheel_previous;
+    uint32_t wheel_slot;    /**< ENF_NONE: not in the queue */
     uint32_t period;        /**< ticks that it was made for */
     uint32_t bad_period;    /**< OPTIMAL: the shortest that was seen; 0: none yet */
     uint32_t exposed_frame; /**< the frame that exposed it last */
     uint32_t exposure;      /**< and its exposure there */
-    uint32_t wheel_slot;    /**< ENF_NONE: not in the queue */
     uint8_t link_count;
     bool alive;
-    EnfDbvLink links[ENF_DBV_LINKS];
+    uint32_t links[ENF_DBV_LINKS]; /**< where its boxes are: block * ENF_KD_BLOCK + lane */
 } EnfDbvVolume;
+
+/* ---- blocks ----------------------------------------------------------------------------------------------------- */
+
+/** Eight boxes (world) of a place; an item is object * ENF_DBV_LINKS + link. Lanes at and beyond `count` are ENF_NONE. */
+typedef struct EnfDbvBlock {
+    EnfKdBlock boxes;
+    uint32_t next, place, count;
+} EnfDbvBlock;
+
+enum { ENF_DBV_CHUNK = 1024 };
+
+typedef struct EnfDbvPool {
+    EnfDbvBlock **chunks; /**< ENF_DBV_CHUNK blocks each */
+    uint32_t chunk_count, chunk_capacity;
+    uint32_t used, free_head; /**< blocks ever taken; given back, chained by `next` */
+    double bound;             /**< metres: no coordinate of a cell's box is larger */
+} EnfDbvPool;
+
+static inline EnfDbvBlock *enf_dbv_block(const EnfDbvPool *pool, uint32_t number) {
+    return &pool->chunks[number / ENF_DBV_CHUNK][number % ENF_DBV_CHUNK];
+}
 
 /* ---- places ----------------------------------------------------------------------------------------------------- */
 
@@ -41,7 +59,7 @@ typedef struct EnfDbvPlaces {
     const EnfMap *map;
     uint32_t cells_first, nodes_first, count;
     uint32_t *parents;   /**< ENF_NONE at the root of the cells' tree and for the OUTSIDE cell */
-    uint32_t *heads;     /**< a place: first entry, or ENF_NONE */
+    uint32_t *heads;     /**< a place: first block, or ENF_NONE */
     uint32_t *below;     /**< a place within a cell (kd nodes): entries there and beneath; others 0 */
     bool *shared;        /**< a node or cell: cells from elsewhere reach into its box */
     uint32_t *hot_frame; /**< a place that is or holds a seen cell: the frame that saw it */
@@ -76,17 +94,29 @@ struct EnfDbvIndex {
     EnfDbvDef def;
     EnfDbvPlaces places;
     EnfDbvWheel wheel;
+    EnfDbvPool pool;
     EnfDbvVolume *volumes;
     uint32_t volume_count, volume_capacity, alive_count;
     EnfDbvExposure *exposures;
     uint32_t exposure_count, exposure_capacity;
-    EnfDbvList due, disturbed, drawn;
+    EnfDbvList due, disturbed, drawn, candidates;
     uint32_t frame;     /**< stamps; 0 never */
     uint32_t hot_frame; /**< the frame whose seen cells count as seen: the last that saw any */
-    bool first;         /**< the world's objects have not been taken in yet */
+    bool first;         /**< the world's objects have not been taken in yet, or memory ran out while a volume was hung */
     bool failed;        /**< memory ran out in this frame: something may be missing */
     EnfDbvCounters counters, total;
 };
+
+/* blocks.c */
+void enf_dbv_pool_destroy(EnfDbvPool *pool, const EnfAllocator *allocator);
+size_t enf_dbv_pool_bytes(const EnfDbvPool *pool);
+/** Hangs a box of an object's volume on a place. False without memory. */
+bool enf_dbv_link(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box);
+/** Takes a box out; the place it was on. The record that it belongs to is left to the caller. */
+uint32_t enf_dbv_unlink(EnfDbvIndex *index, uint32_t slot);
+EnfBox3f enf_dbv_lane(const EnfKdBlock *boxes, uint32_t lane);
+/** A pyramid relative to a cell's origin, as planes that test the world boxes of blocks: never tighter. */
+void enf_dbv_planes(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid, EnfSimdPlanes *out);
 
 /* places.c */
 EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const EnfAllocator *allocator, EnfError *error);
@@ -94,8 +124,10 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
 void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
 /** Hangs an object's volume on the deepest places that cover it, at most ENF_DBV_LINKS, seen ones split first. `from`: a place to
  *  begin the climb at (the volume's old one), or ENF_NONE for the root. True if one of the places holds a cell seen in the last
- *  frame. */
-bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, uint32_t from);
+ *  frame. Without memory, the index takes all objects in again in the next frame. */
+bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t from);
+/** The place that an object's volume hangs on first, or ENF_NONE. */
+uint32_t enf_dbv_place_of(const EnfDbvIndex *index, uint32_t object);
 /** Does `box` touch a cell seen in the last frame? */
 bool enf_dbv_touches_seen(EnfDbvIndex *index, EnfBox3f box);
 /** The distance from `box` to the nearest cell seen in the last frame; below 0 if it touches one, HUGE_VAL if none was seen. */
@@ -117,6 +149,15 @@ bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index);
 enum { ENF_DBV_DRAWN_PERIOD = 16 };
 /** Makes and hangs a new volume for a living object. */
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause);
+
+/** Asks for the cache line at `address`; a hint. */
+static inline void enf_dbv_prefetch(const void *address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
 
 /* index.c */
 bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item); /**< false without memory */

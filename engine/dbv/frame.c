@@ -37,11 +37,13 @@ static bool take_in(EnfDbvIndex *index, uint32_t object) {
 static bool take_in_changes(EnfDbvIndex *index) {
     bool ok = true;
     if (index->first) {
+        index->failed = false; /* everything is tried anew */
         uint32_t limit = enf_world_object_limit(index->world);
         ok = enf_dbv_reserve_volumes(index, limit);
         for (uint32_t object = 0; object < limit && ok; object++) {
             ok = take_in(index, object);
         }
+        ok = ok && !index->failed; /* a volume that could not be hung sets `first` again */
         index->first = !ok;
         return ok;
     }
@@ -53,25 +55,26 @@ static bool take_in_changes(EnfDbvIndex *index) {
     return ok;
 }
 
-/* The due are many and far apart in memory: the next ones are asked for while one is worked on. */
-static void prefetch(const EnfDbvIndex *index, uint32_t i) {
-#if defined(__GNUC__)
-    if (i < index->due.count) {
-        const EnfDbvVolume *volume = &index->volumes[index->due.items[i]];
-        __builtin_prefetch(volume);
-        __builtin_prefetch((const char *)volume + 64);
+/* The due are many and far apart in memory: the next ones are asked for while one is worked on; first the record, then what it
+ * names. */
+static void prefetch_due(const EnfDbvIndex *index, uint32_t i) {
+    if (i + 16 < index->due.count) {
+        enf_dbv_prefetch(&index->volumes[index->due.items[i + 16]]);
+        enf_world_prefetch(index->world, index->due.items[i + 16]);
     }
-#else
-    (void)index;
-    (void)i;
-#endif
+    if (i + 6 < index->due.count) {
+        const EnfDbvVolume *volume = &index->volumes[index->due.items[i + 6]];
+        for (uint32_t k = 0; k < volume->link_count; k++) {
+            enf_dbv_prefetch(enf_dbv_block(&index->pool, volume->links[k] / ENF_KD_BLOCK));
+        }
+    }
 }
 
 static bool renew_expired(EnfDbvIndex *index) {
     index->due.count = 0;
     bool ok = enf_dbv_wheel_advance(index, enf_world_tick(index->world));
     for (uint32_t i = 0; i < index->due.count; i++) {
-        prefetch(index, i + 8);
+        prefetch_due(index, i);
         index->counters.expired++;
         enf_dbv_renew(index, index->due.items[i], ENF_DBV_UNSEEN);
     }
@@ -83,8 +86,9 @@ EnfResult enf_dbv_begin(EnfDbvIndex *index, EnfError *error) {
     index->exposure_count = 0;
     index->disturbed.count = 0;
     index->drawn.count = 0;
+    index->failed = false;
     bool ok = renew_expired(index);
-    ok = take_in_changes(index) && ok;
+    ok = take_in_changes(index) && ok && !index->failed;
     index->frame++;
     if (index->frame == 0) { /* stamps of the last round must not look new */
         memset(index->places.hot_frame, 0, index->places.count * sizeof *index->places.hot_frame);
@@ -113,6 +117,7 @@ static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
         EnfDbvExposure exposure = {object, false, enf_world_box(index->world, object)};
         index->exposures[volume->exposure] = exposure;
         index->counters.exposed++;
+        index->counters.late += volume->expiry_tick < enf_world_tick(index->world) ? 1U : 0U;
     }
     return &index->exposures[volume->exposure];
 }
@@ -121,35 +126,52 @@ static bool shows(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyr
     return enf_world_touches(index->map, cell, box) && enf_pyramid_box(pyramid, enf_world_box_in_cell(index->map, cell, box));
 }
 
-static void test_volume(EnfDbvIndex *index, uint32_t object, uint32_t cell, const EnfPyramid *pyramid) {
-    index->counters.tested++;
-    index->counters.late += index->volumes[object].expiry_tick < enf_world_tick(index->world) ? 1U : 0U;
-    if (!shows(index, cell, pyramid, index->volumes[object].box)) {
-        return;
-    }
-    EnfDbvExposure *exposure = expose(index, object);
-    if (exposure != NULL && !exposure->drawn && shows(index, cell, pyramid, exposure->box)) {
-        exposure->drawn = true;
+/* A window as the steps of one enf_dbv_see use it. */
+typedef struct Look {
+    uint32_t cell;
+    const EnfPyramid *pyramid; /* relative to the cell */
+    const EnfSimd *simd;
+    EnfSimdPlanes planes; /* of world boxes */
+} Look;
+
+/* Objects of one block whose volumes the window shows. */
+static void gather(EnfDbvIndex *index, const Look *look, const EnfDbvBlock *block, uint32_t mask) {
+    for (uint32_t shown = mask & 0xff; shown != 0; shown &= shown - 1) {
+        uint32_t lane = enf_simd_lowest(shown);
+        uint32_t object = block->boxes.item[lane] / ENF_DBV_LINKS;
+        if (enf_world_touches(index->map, look->cell, enf_dbv_lane(&block->boxes, lane))) {
+            enf_dbv_prefetch(&index->volumes[object]);
+            enf_world_prefetch(index->world, object);
+            index->failed = !enf_dbv_list_add(index, &index->candidates, object) || index->failed;
+        }
     }
 }
 
 /* Every volume that hangs on a place. `high`: a node of the cells' tree, where those who would rather sleep should not hang. */
-static void test_place(EnfDbvIndex *index, uint32_t place, uint32_t cell, const EnfPyramid *pyramid, bool high) {
-    for (uint32_t entry = index->places.heads[place]; entry != ENF_NONE;) {
-        uint32_t object = entry / ENF_DBV_LINKS;
-        const EnfDbvLink *link = &index->volumes[object].links[entry % ENF_DBV_LINKS];
-        test_volume(index, object, cell, pyramid);
-        if (high && index->disturbed.count < DISTURBED_A_FRAME) {
-            (void)enf_dbv_list_add(index, &index->disturbed, object);
+static void test_place(EnfDbvIndex *index, uint32_t place, const Look *look, bool high) {
+    uint32_t number = index->places.heads[place];
+    while (number != ENF_NONE) {
+        const EnfDbvBlock *block = enf_dbv_block(&index->pool, number);
+        number = block->next;
+        if (number != ENF_NONE) {
+            const char *next = (const char *)enf_dbv_block(&index->pool, number);
+            for (size_t line = 0; line < sizeof *block; line += 64) {
+                enf_dbv_prefetch(next + line);
+            }
         }
-        entry = link->next;
+        uint32_t mask = look->simd->boxes(&look->planes, block->boxes.min_x, look->planes.all);
+        index->counters.tested += block->count;
+        gather(index, look, block, mask);
+        for (uint32_t lane = 0; high && lane < block->count && index->disturbed.count < DISTURBED_A_FRAME; lane++) {
+            (void)enf_dbv_list_add(index, &index->disturbed, block->boxes.item[lane] / ENF_DBV_LINKS);
+        }
     }
 }
 
 /* The kd nodes of a cell that the pyramid passes and that have entries at or beneath them. */
-static void test_tree(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
+static void test_tree(EnfDbvIndex *index, const Look *look) {
     const EnfDbvPlaces *places = &index->places;
-    const EnfCell *c = &index->map->cells[cell];
+    const EnfCell *c = &index->map->cells[look->cell];
     uint32_t first = places->nodes_first + c->node_first;
     uint32_t stack[ENF_KD_MAX_DEPTH + 1];
     uint32_t depth = 0;
@@ -160,10 +182,10 @@ static void test_tree(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyram
         uint32_t at = stack[--depth];
         const EnfKdNode *node = &index->map->kd_nodes[c->node_first + at];
         EnfBox3f box = {{node->min[0], node->min[1], node->min[2]}, {node->max[0], node->max[1], node->max[2]}};
-        if (!enf_pyramid_box(pyramid, box)) {
+        if (!enf_pyramid_box(look->pyramid, box)) {
             continue;
         }
-        test_place(index, first + at, cell, pyramid, false);
+        test_place(index, first + at, look, false);
         const uint32_t pair[2] = {at + 1, node->link};
         for (uint32_t i = 0; i < 2 && node->block_count == 0; i++) {
             if (places->below[first + pair[i]] > 0) {
@@ -173,18 +195,35 @@ static void test_tree(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyram
     }
 }
 
+/* The objects themselves: the volumes only said which might be seen. */
+static void expose_candidates(EnfDbvIndex *index, const Look *look) {
+    for (uint32_t i = 0; i < index->candidates.count; i++) {
+        EnfDbvExposure *exposure = expose(index, index->candidates.items[i]);
+        if (exposure != NULL && !exposure->drawn && shows(index, look->cell, look->pyramid, exposure->box)) {
+            exposure->drawn = true;
+        }
+    }
+}
+
 void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
     EnfDbvPlaces *places = &index->places;
     uint32_t place = places->cells_first + cell;
+    Look look;
+    look.cell = cell;
+    look.pyramid = pyramid;
+    look.simd = enf_simd();
+    enf_dbv_planes(index, cell, pyramid, &look.planes);
     index->hot_frame = index->frame;
-    test_place(index, place, cell, pyramid, false);
-    test_tree(index, cell, pyramid);
+    index->candidates.count = 0;
+    test_place(index, place, &look, false);
+    test_tree(index, &look);
     for (; place != ENF_NONE; place = places->parents[place]) {
         places->hot_frame[place] = index->frame;
         if (place < places->cells_first) {
-            test_place(index, place, cell, pyramid, true);
+            test_place(index, place, &look, true);
         }
     }
+    expose_candidates(index, &look);
 }
 
 /* ---- end -------------------------------------------------------------------------------------------------------- */

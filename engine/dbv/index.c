@@ -1,13 +1,27 @@
 /* Memory of an index: volumes, lists, the table of places. Arrays grow and keep their size, so a warm frame makes no heap call. */
 #include "dbv/dbv_internal.h"
 
+#include <math.h>
 #include <string.h>
 
-_Static_assert(sizeof(EnfDbvVolume) <= 128, "with the lists of a frame an object costs at most 160 bytes");
+_Static_assert(sizeof(EnfDbvVolume) <= 64, "with two boxes in blocks and the lists of a frame: at most 160 bytes an object");
 
 EnfDbvDef enf_dbv_def_default(void) {
     EnfDbvDef def = {ENF_DBV_MAXIMAL, ENF_DBV_LCA, 64, 1U << 30};
     return def;
+}
+
+/* The largest coordinate of any cell's box, and a metre. */
+static double farthest_cell(const EnfMap *map) {
+    double farthest = 0.0;
+    for (uint32_t c = 0; c < map->cells_count; c++) {
+        const EnfCell *cell = &map->cells[c];
+        for (int axis = 0; axis < 3; axis++) {
+            farthest = fmax(farthest, fabs(cell->origin[axis] + (double)cell->min[axis]));
+            farthest = fmax(farthest, fabs(cell->origin[axis] + (double)cell->max[axis]));
+        }
+    }
+    return farthest + 1.0;
 }
 
 EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *def, const EnfAllocator *allocator,
@@ -23,6 +37,8 @@ EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *de
     index->allocator = allocator;
     index->def = *def;
     index->first = true;
+    index->pool.free_head = ENF_NONE;
+    index->pool.bound = farthest_cell(index->map);
     enf_dbv_wheel_create(&index->wheel, enf_world_tick(world));
     EnfResult result = enf_dbv_places_create(&index->places, index->map, allocator, error);
     if (result != ENF_OK) {
@@ -42,11 +58,13 @@ void enf_dbv_destroy(EnfDbvIndex *index) {
         return;
     }
     enf_dbv_places_destroy(&index->places, index->allocator);
+    enf_dbv_pool_destroy(&index->pool, index->allocator);
     enf_free(index->allocator, index->volumes, index->volume_capacity, sizeof *index->volumes);
     enf_free(index->allocator, index->exposures, index->exposure_capacity, sizeof *index->exposures);
     free_list(index, &index->due);
     free_list(index, &index->disturbed);
     free_list(index, &index->drawn);
+    free_list(index, &index->candidates);
     enf_free(index->allocator, index, 1, sizeof *index);
 }
 
@@ -131,17 +149,20 @@ EnfDbvCounters enf_dbv_total_counters(const EnfDbvIndex *index) {
 }
 
 bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume, int64_t *expiry_tick) {
-    if (object >= index->volume_count || !index->volumes[object].alive) {
+    if (object >= index->volume_count || index->volumes[object].link_count == 0) {
         return false;
     }
-    *volume = index->volumes[object].box;
-    *expiry_tick = index->volumes[object].expiry_tick;
+    const EnfDbvVolume *record = &index->volumes[object];
+    EnfBox3f all = enf_dbv_lane(&enf_dbv_block(&index->pool, record->links[0] / ENF_KD_BLOCK)->boxes,
+                                record->links[0] % ENF_KD_BLOCK);
+    *volume = all;
+    *expiry_tick = record->expiry_tick;
     return true;
 }
 
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
-    size_t lists = index->due.capacity + index->disturbed.capacity + index->drawn.capacity;
+    size_t lists = index->due.capacity + index->disturbed.capacity + index->drawn.capacity + index->candidates.capacity;
     size_t place = 4 * sizeof(uint32_t) + sizeof(bool);
-    return sizeof *index + index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
+    return sizeof *index + enf_dbv_pool_bytes(&index->pool) + index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
            index->exposure_capacity * sizeof *index->exposures + ((size_t)index->places.count + 1) * place;
 }

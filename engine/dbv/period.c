@@ -136,14 +136,13 @@ bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index) {
 /* Hangs the volume of `period` ticks. True if its places hold a seen cell. */
 static bool hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
     EnfDbvVolume *volume = &index->volumes[object];
-    bool climbs = index->def.update == ENF_DBV_LCA && volume->link_count > 0;
-    uint32_t from = climbs ? volume->links[0].place : ENF_NONE;
+    uint32_t from = index->def.update == ENF_DBV_LCA ? enf_dbv_place_of(index, object) : ENF_NONE;
+    EnfBox3f box = bound_for(index, object, period);
     volume->period = period;
-    volume->box = bound_for(index, object, period);
     volume->expiry_tick = enf_world_tick(index->world) + (int64_t)period;
     enf_dbv_unhang(index, object);
     index->counters.reinserted++;
-    return enf_dbv_hang(index, object, from);
+    return enf_dbv_hang(index, object, box, from);
 }
 
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {

@@ -148,10 +148,6 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
 
 /* ---- links ------------------------------------------------------------------------------------------------------ */
 
-static EnfDbvLink *link_of(EnfDbvIndex *index, uint32_t entry) {
-    return &index->volumes[entry / ENF_DBV_LINKS].links[entry % ENF_DBV_LINKS];
-}
-
 /* Counts an entry within a cell's tree in or out, from its node up. */
 static void count_below(EnfDbvPlaces *places, uint32_t place, bool in) {
     for (; place != ENF_NONE && place >= places->nodes_first; place = places->parents[place]) {
@@ -159,35 +155,26 @@ static void count_below(EnfDbvPlaces *places, uint32_t place, bool in) {
     }
 }
 
-static void link_to(EnfDbvIndex *index, uint32_t object, uint32_t place) {
-    EnfDbvVolume *volume = &index->volumes[object];
-    uint32_t entry = object * ENF_DBV_LINKS + volume->link_count;
-    EnfDbvLink *link = &volume->links[volume->link_count++];
-    link->place = place;
-    link->previous = ENF_NONE;
-    link->next = index->places.heads[place];
-    if (link->next != ENF_NONE) {
-        link_of(index, link->next)->previous = entry;
+static void link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
+    if (enf_dbv_link(index, object, place, box)) {
+        count_below(&index->places, place, true);
+    } else {
+        index->failed = true;
+        index->first = true;
     }
-    index->places.heads[place] = entry;
-    count_below(&index->places, place, true);
 }
 
 void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object) {
     EnfDbvVolume *volume = &index->volumes[object];
-    for (uint32_t i = 0; i < volume->link_count; i++) {
-        EnfDbvLink *link = &volume->links[i];
-        if (link->next != ENF_NONE) {
-            link_of(index, link->next)->previous = link->previous;
-        }
-        if (link->previous != ENF_NONE) {
-            link_of(index, link->previous)->next = link->next;
-        } else {
-            index->places.heads[link->place] = link->next;
-        }
-        count_below(&index->places, link->place, false);
+    while (volume->link_count > 0) {
+        uint32_t place = enf_dbv_unlink(index, volume->links[--volume->link_count]);
+        count_below(&index->places, place, false);
     }
-    volume->link_count = 0;
+}
+
+uint32_t enf_dbv_place_of(const EnfDbvIndex *index, uint32_t object) {
+    const EnfDbvVolume *volume = &index->volumes[object];
+    return volume->link_count == 0 ? ENF_NONE : enf_dbv_block(&index->pool, volume->links[0] / ENF_KD_BLOCK)->place;
 }
 
 /* ---- steps down ----------------------------------------------------------------------------------------------- */
@@ -352,18 +339,19 @@ static uint32_t climb(EnfDbvIndex *index, uint32_t from, const EnfBox3 *box) {
 }
 
 /* What lies in no room is under no node of the tree: its cell is asked apart. */
-static void cover_outside(EnfDbvIndex *index, uint32_t object, const EnfBox3 *box) {
+static void cover_outside(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) {
     const EnfMap *map = index->map;
     uint32_t last = map->cells_count - 1;
     bool outside = map->cells_count > 0 && (map->cells[last].flags & ENF_CELL_OUTSIDE) != 0;
-    if (outside && touches(cell_box(map, last), box)) {
-        link_to(index, object, index->places.cells_first + last);
+    EnfBox3 box = enf_box3_from_f(volume);
+    if (outside && touches(cell_box(map, last), &box)) {
+        link_to(index, object, index->places.cells_first + last, volume);
     }
 }
 
-bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, uint32_t from) {
+bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t from) {
     const EnfDbvPlaces *places = &index->places;
-    EnfBox3 box = enf_box3_from_f(index->volumes[object].box);
+    EnfBox3 box = enf_box3_from_f(volume);
     Cover cover = {{0}, 0, {false}};
     uint32_t start = from == ENF_NONE ? ENF_NONE : climb(index, from, &box);
     bool root_touched = index->map->cell_nodes_count > 0 && touches(place_box(places, 0), &box);
@@ -372,7 +360,7 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, uint32_t from) {
         cover.final[0] = cover.places[0] >= places->cells_first;
         cover.count = 1;
     }
-    cover_outside(index, object, &box);
+    cover_outside(index, object, volume);
     /* One link may be gone to the OUTSIDE cell: the cover has the rest. */
     uint32_t limit = ENF_DBV_LINKS - index->volumes[object].link_count;
     for (uint32_t i = next_split(index, &cover); i != ENF_NONE; i = next_split(index, &cover)) {
@@ -390,7 +378,7 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, uint32_t from) {
         if (outer >= places->cells_first) {
             place = descend(index, outer - places->cells_first, place, &box);
         }
-        link_to(index, object, place);
+        link_to(index, object, place, volume);
     }
     return seen;
 }

@@ -152,10 +152,18 @@ const uint32_t *enf_world_changes(const EnfWorld *world, uint32_t *count) {
 /* ---- life ------------------------------------------------------------------------------------------------------- */
 
 /* Free objects ask where they are, so that their bound counts from now. */
-static void refresh_free(EnfWorld *world, uint32_t index) {
+static void ask_free(EnfWorld *world, uint32_t index) {
     EnfMotion *motion = &world->motions[index];
     if (motion->kind == ENF_MOTION_FREE && motion->as.free.ask != NULL) {
+        world->evaluations++;
         enf_free_push(motion, world->tick, motion->as.free.ask(motion->as.free.user, world->tick));
+    }
+}
+
+/* Asking may cost a skeleton: once a tick. */
+static void refresh_free(EnfWorld *world, uint32_t index) {
+    if (world->motions[index].as.free.push_tick != world->tick) {
+        ask_free(world, index);
     }
 }
 
@@ -175,6 +183,7 @@ EnfObjectId enf_world_add(EnfWorld *world, const EnfObjectDef *def, EnfError *er
     object->mesh = def->mesh;
     object->user = def->user;
     world->motions[id.index] = def->motion;
+    ask_free(world, id.index);
     id.generation = object->generation;
     note_change(world, id.index);
     return id;
@@ -204,6 +213,7 @@ bool enf_world_set_motion(EnfWorld *world, EnfObjectId id, const EnfMotion *moti
     if (motion->kind == ENF_MOTION_FREE) {
         world->objects[id.index].max_speed = motion->as.free.max_speed;
     }
+    ask_free(world, id.index);
     note_change(world, id.index);
     return true;
 }
@@ -237,6 +247,11 @@ uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index) {
 }
 
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index) {
+    const EnfMotion *motion = &world->motions[index];
+    if (motion->kind == ENF_MOTION_FREE) {
+        refresh_free(world, index);
+        return motion->as.free.pose;
+    }
     world->evaluations++;
     return enf_motion_state(&world->motions[index], world->tick);
 }
@@ -250,9 +265,23 @@ EnfBox3f enf_world_box(EnfWorld *world, uint32_t index) {
 }
 
 EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until) {
-    world->evaluations++;
-    refresh_free(world, index);
+    if (world->motions[index].kind == ENF_MOTION_FREE) {
+        refresh_free(world, index);
+    }
     return enf_box3f_outward(enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until));
+}
+
+void enf_world_prefetch(const EnfWorld *world, uint32_t index) {
+#if defined(__GNUC__)
+    const char *motion = (const char *)&world->motions[index];
+    __builtin_prefetch(&world->objects[index]);
+    __builtin_prefetch(motion);
+    __builtin_prefetch(motion + 64);
+    __builtin_prefetch(motion + 128);
+#else
+    (void)world;
+    (void)index;
+#endif
 }
 
 double enf_world_max_speed(const EnfWorld *world, uint32_t index) {

@@ -198,6 +198,8 @@ EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until);
 double enf_world_max_speed(const EnfWorld *world, uint32_t index);
 /** Is its motion FREE: nothing known but a largest speed? */
 bool enf_world_is_free(const EnfWorld *world, uint32_t index);
+/** Asks the processor for what the three above will read of an object: a hint for those who know what they will ask next. */
+void enf_world_prefetch(const EnfWorld *world, uint32_t index);
 /** Motions evaluated since the world was made. */
 uint64_t enf_world_evaluations(const EnfWorld *world);
 
