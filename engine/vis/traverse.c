@@ -12,6 +12,10 @@
 /* Portals a sequences traversal tests before it gives way, where the view names no limit. */
 #define SEQUENCE_STEPS 65536U
 
+/* Times a cell's polygon window may grow before it becomes a box. A polygon that comes back round a ring of cells is rounded outward
+ * at every portal, so it would grow for long by a sixteenth of a pixel; a box comes back within itself. */
+#define POLYGON_GROWTHS 4U
+
 /* What one frame's traversal carries from call to call. */
 typedef struct Walk {
     EnfVis *vis;
@@ -223,8 +227,9 @@ static bool widen(const Walk *walk, uint32_t index, const Pane *pane) {
         }
         EnfWindowPolygon joined;
         enf_window_polygon_union(polygon, &pane->polygon, &joined);
-        *polygon = joined;
         visit->window = enf_window_polygon_bounds(&joined);
+        bool rings = ++vis->links[index].growths > POLYGON_GROWTHS;
+        *polygon = rings ? enf_window_polygon_from_box(visit->window) : joined;
         return true;
     }
     if (enf_window_contains(visit->window, pane->box)) {

@@ -20,6 +20,7 @@ typedef struct EnfSpaceStep {
 /** A visit's place in the queue. */
 typedef struct EnfVisitLink {
     uint32_t next;
+    uint32_t growths; /**< of its polygon window */
     bool queued;
 } EnfVisitLink;
 

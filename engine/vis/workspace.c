@@ -139,6 +139,7 @@ uint32_t enf_vis_add_visit(EnfVis *vis, EnfVisit visit) {
     uint32_t index = vis->visit_count++;
     vis->visits[index] = visit;
     vis->links[index].next = ENF_NONE;
+    vis->links[index].growths = 0;
     vis->links[index].queued = false;
     return index;
 }
