@@ -1,6 +1,7 @@
 /* Makes EnfGlLights from the light references of a map. A reference says through which opening a light comes into a cell;
  * the references of one light in one cell are gathered into one light with several windows, so a point that two windows
- * overlap in is lit once. Then each cluster gets the lights whose range and windows touch its box: few. The result depends on the map alone, never on what is visible: shading is the same culled and unculled. */
+ * overlap in is lit once. Then each cluster gets the lights whose range and windows touch its box: few. The result depends
+ * on the map alone, never on what is visible: shading is the same culled and unculled. */
 #include "gl/lights.h"
 
 #include <stdlib.h>
