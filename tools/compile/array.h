@@ -18,6 +18,9 @@
 #define ENF_ARRAY_ROOM(array, extra)                                                                                           \
     enf_array_reserve(&(array)->data, &(array)->capacity, (uint64_t)(array)->count + (extra), sizeof *(array)->data)
 
+/** The elements from `first` on; NULL for an array that never grew (NULL + 0 is undefined in C). */
+#define ENF_ARRAY_FROM(array, first) ((array)->data ? (array)->data + (first) : NULL)
+
 /** Makes the block whose pointer lies at `pointer` hold at least `needed` elements of `size` bytes; at least doubles. No more
  *  than 2^31 elements. The pointer is copied as bytes: its own type is the caller's. */
 static inline bool enf_array_reserve(void *pointer, uint32_t *capacity, uint64_t needed, size_t size) {

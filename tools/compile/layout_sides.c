@@ -68,7 +68,7 @@ bool enf_layout_shells(EnfLayoutWork *work) {
     for (uint32_t c = 0; ok && c < work->cells.count; c++) {
         const EnfLayoutCell *cell = &work->cells.data[c];
         EnfBox3 box = {enf_grid_point(cell->min), enf_grid_point(cell->max)};
-        enf_shell_set_bound(&work->shells.cells[c], &work->planes.data[cell->bound_first], cell->bound_count, box);
+        enf_shell_set_bound(&work->shells.cells[c], ENF_ARRAY_FROM(&work->planes, cell->bound_first), cell->bound_count, box);
     }
     return ok && make_cell_tree(work);
 }

@@ -137,7 +137,7 @@ static bool find_hits(Weld *weld) {
         if (tree) {
             enf_point_tree_segment(tree, a, b, take_hit, weld);
         }
-        sort_along(weld->hits.data + first, weld->hits.count - first, weld->points, a, enf_grid_sub(b, a));
+        sort_along(ENF_ARRAY_FROM(&weld->hits, first), weld->hits.count - first, weld->points, a, enf_grid_sub(b, a));
     }
     weld->hit_first[weld->work.count] = weld->hits.count;
     return !weld->failed;
