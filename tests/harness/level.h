@@ -55,6 +55,7 @@ static inline Level *level_new(void) {
     s->material_names = level->material_names;
     s->material_count = 4;
     s->generator = "test";
+    s->has_extras = s->has_lights = true;
     return level;
 }
 

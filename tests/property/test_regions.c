@@ -183,6 +183,9 @@ static void long_things_are_listed_where_they_go(void **state) {
         assert_int_equal(reached(&built, pole, &home, other, 16), 1);
         assert_int_equal(other[0], 1);
         assert_int_equal(reached(&built, carpet, &home, other, 16), WIDE * DEEP - 1);
+        enf_reach_report(built.reach, &built.diagnosis);
+        assert_int_equal(found(&built, ENF_DIAGNOSIS_GEOMETRY_CROSSES, "pole"), 1);
+        assert_count(&built, 1); /* not the beam, which goes through doors, nor the carpet, which is nobody's */
         destroy(&built);
         level_free(level);
     }

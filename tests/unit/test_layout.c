@@ -257,6 +257,32 @@ static void level_without_triangles_is_refused(void **state) {
     done(&built, level);
 }
 
+static void oversized_room_is_refused(void **state) {
+    (void)state;
+    Level *level = level_new();
+    level_room(level, "hall-room", level_box(0, 0, 0, 3e5, 3, 5));
+    Built built = build(level);
+    assert_int_equal(built.result, ENF_ERROR_LEVEL);
+    assert_int_equal(found(&built, ENF_DIAGNOSIS_TOO_LARGE, "hall-room"), 1);
+    done(&built, level);
+}
+
+/* What Blender leaves out unless told otherwise is named, with the box to tick. */
+static void missing_extras_and_lights_are_remarked(void **state) {
+    (void)state;
+    Level *level = level_new();
+    level_room(level, "hall-room", left_box);
+    level->source.has_extras = level->source.has_lights = false;
+    level->source.generator = "Khronos glTF Blender I/O v3.6.27";
+    Built built = build(level);
+    assert_int_equal(found(&built, ENF_DIAGNOSIS_NO_EXTRAS, NULL), 1);
+    assert_int_equal(found(&built, ENF_DIAGNOSIS_NO_LIGHTS, NULL), 1);
+    assert_int_equal(built.diagnosis.count, 2);
+    assert_non_null(strstr(built.diagnosis.findings[0].message, "Custom Properties"));
+    assert_non_null(strstr(built.diagnosis.findings[1].message, "Punctual Lights"));
+    done(&built, level);
+}
+
 static void empty_and_equal_rooms_are_warned(void **state) {
     (void)state;
     uint32_t left, right;
@@ -680,7 +706,7 @@ static void check_truth(const char *name) {
     assert_non_null(truth);
     assert_int_equal(enf_source_import(&source, enf_test_data(path), &built.diagnosis, &error), ENF_OK);
     assert_int_equal(enf_layout_build(&built.layout, &source, &settings, &built.diagnosis, &error), ENF_OK);
-    assert_quiet(&built);
+    assert_int_equal(built.diagnosis.count, found(&built, ENF_DIAGNOSIS_NO_LIGHTS, NULL)); /* the house has none */
     const cJSON *cells = cJSON_GetObjectItemCaseSensitive(truth, "cells"), *item;
     const cJSON *portals = cJSON_GetObjectItemCaseSensitive(truth, "portals");
     uint32_t cell_of[256] = {0};
@@ -724,6 +750,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(dented_bound_is_warned),
     cmocka_unit_test(level_without_rooms_is_one_cell),
     cmocka_unit_test(level_without_triangles_is_refused),
+    cmocka_unit_test(oversized_room_is_refused),
+    cmocka_unit_test(missing_extras_and_lights_are_remarked),
     cmocka_unit_test(empty_and_equal_rooms_are_warned),
     cmocka_unit_test(targets_are_found_by_name),
     cmocka_unit_test(portal_given_on_both_sides_is_one),

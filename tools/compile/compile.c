@@ -124,6 +124,7 @@ static EnfResult assemble(Compiler *compiler) {
         EnfAssemblyParts parts = {&compiler->source,   &compiler->layout,        &compiler->soup,   compiler->reach,
                                   &compiler->clusters, &compiler->def->settings, &report->diagnosis};
         result = enf_assemble(&compiler->assembly, &parts, compiler->error);
+        enf_reach_report(compiler->reach, &report->diagnosis);
     }
     report->clusters = compiler->assembly.clusters.count;
     report->kd_nodes = compiler->assembly.kd_nodes.count;

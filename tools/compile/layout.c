@@ -214,6 +214,36 @@ static bool link_nested(EnfLayoutWork *work) {
 
 /* ---- the whole ------------------------------------------------------------------------------------------------------------- */
 
+/* Exporters leave these out unless a box is ticked (PITFALLS 30). */
+static void remark_on_export(const EnfLayoutWork *work) {
+    const EnfSource *source = work->source;
+    bool blender = source->generator != NULL && strstr(source->generator, "Blender") != NULL;
+    if (!source->has_extras) {
+        enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_NO_EXTRAS, "",
+                     "the file has no extras%s: names alone say what a node is",
+                     blender ? " (in Blender's glTF export tick Include > Data > Custom Properties)" : "");
+    }
+    if (!source->has_lights) {
+        enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_NO_LIGHTS, "", "the file has no lights%s",
+                     blender ? " (in Blender's glTF export tick Include > Data > Punctual Lights)" : "");
+    }
+}
+
+/* The grid's integers hold cells of this half size (metres) exactly in every stage: 2^18, 262 km. */
+static bool is_too_large(const EnfLayoutWork *work) {
+    const int64_t limit = (int64_t)1 << 30;
+    for (uint32_t c = 0; c < work->cells.count; c++) {
+        const EnfLayoutCell *cell = &work->cells.data[c];
+        int64_t size = most(cell->max.x - cell->min.x, most(cell->max.y - cell->min.y, cell->max.z - cell->min.z));
+        if (size >= limit) {
+            enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_TOO_LARGE, cell->name, "the cell is %.0f km across: more than 262",
+                         (double)size / 4096.0 / 1000.0);
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool has_geometry(const EnfLayoutWork *work) {
     for (uint32_t n = 0; n < work->source->node_count; n++) {
         EnfRole role = work->layout->roles[n];
@@ -284,7 +314,11 @@ EnfResult enf_layout_build(EnfLayout *layout, const EnfSource *source, const Enf
         result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory for the cells and portals");
     }
     if (result == ENF_OK) {
+        remark_on_export(&work);
         place_cells(&work);
+        if (is_too_large(&work)) {
+            result = enf_error_set(error, ENF_ERROR_LEVEL, UINT64_MAX, "a cell is larger than the compiler's grid can hold");
+        }
     }
     hand_over(&work);
     work_free(&work);

@@ -85,6 +85,8 @@ typedef struct EnfReach EnfReach; /**< acceleration over cell shells; made once 
 EnfReach *enf_reach_create(const EnfLayout *layout, const struct EnfSoup *soup);
 uint32_t enf_reach_query(const EnfReach *reach, const uint32_t *triangles, uint32_t triangle_count, uint32_t cell,
                          uint32_t *out, uint32_t capacity);
+/** Warns of every node that the queries so far found deep inside a room that is not its own, once a pair. */
+void enf_reach_report(EnfReach *reach, EnfDiagnosis *diagnosis);
 void enf_reach_destroy(EnfReach *reach);
 
 #ifdef __cplusplus

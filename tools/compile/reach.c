@@ -14,6 +14,8 @@
 #define SURFACE (2.0 * ENF_GRID_STEP)
 /* Metres in front of a surface at which one looks where it is: far above SURFACE, far below any room. */
 static const double IN_FRONT = 1.0 / 64.0;
+/* Metres inside another room from which an author did not mean it: more than modelling to the centimetre. */
+static const double DEEP = 0.03;
 /* Large triangles are looked at piece by piece: pieces of this size (metres), halved at most so often. */
 static const double PIECE = 1.25;
 enum { HALVINGS = 6, CANDIDATES = 32 };
@@ -29,10 +31,15 @@ typedef struct Gate {
 typedef struct Sheet {
     EnfVec3 p[3], normal;
     EnfBox3 box; /* of its corners */
-    uint32_t home;
+    uint32_t home, node;
     bool both;  /* seen from behind too, or by nobody knows whom */
     bool loose; /* belongs to no room by its author's word, so its home has no claim on it */
 } Sheet;
+
+/* A node deep inside a room that is not its own. */
+typedef struct Crossing {
+    uint32_t node, cell;
+} Crossing;
 
 struct EnfReach {
     EnfSpace space;
@@ -42,6 +49,7 @@ struct EnfReach {
     uint32_t *stamp; /* by cell: the query that listed it last */
     ENF_ARRAY(Sheet) sheets;
     ENF_ARRAY(EnfVec3) points;
+    ENF_ARRAY(Crossing) crossings;
     uint32_t query;
 };
 
@@ -96,6 +104,7 @@ void enf_reach_destroy(EnfReach *reach) {
         free(reach->stamp);
         free(reach->sheets.data);
         free(reach->points.data);
+        free(reach->crossings.data);
         free(reach);
     }
 }
@@ -297,6 +306,14 @@ static void look_at_pieces(Query *query, const Sheet *sheet, const EnfVec3 p[3],
     }
 }
 
+/* Remembers a node of another room that stands in the cell, for the report; loose ones are nobody's fault. */
+static void note_crossing(EnfReach *reach, const Sheet *sheet, uint32_t cell, EnfVec3 p) {
+    bool deep = !sheet->loose && enf_shell_inside(&reach->space.shells, cell, p, DEEP, true);
+    if (deep && ENF_ARRAY_ROOM(&reach->crossings, 1)) {
+        reach->crossings.data[reach->crossings.count++] = (Crossing){sheet->node, cell};
+    }
+}
+
 /* Lists the cells, of at most CANDIDATES, that a triangle reaches into. */
 static void look_at_triangle(Query *query, const Sheet *sheet, const uint32_t *cells, uint32_t count) {
     EnfSpace *space = &query->reach->space;
@@ -306,6 +323,7 @@ static void look_at_triangle(Query *query, const Sheet *sheet, const uint32_t *c
         for (int k = 0; k < 3 && !is_listed(query->reach, near[i]); k++) {
             if (enf_shell_inside(&space->shells, near[i], sheet->p[k], SURFACE, false)) {
                 list(query->reach, near[i], &query->listed);
+                note_crossing(query->reach, sheet, near[i], sheet->p[k]);
             }
         }
     }
@@ -335,9 +353,10 @@ static void reach_through_walls(Query *query) {
     }
 }
 
-static void reach_through_portals(Query *query) {
+/* From the cells listed at `first` and after it. */
+static void reach_through_portals(Query *query, uint32_t first) {
     EnfReach *reach = query->reach;
-    for (uint32_t i = 0; i < query->listed; i++) {
+    for (uint32_t i = first; i < query->listed; i++) {
         uint32_t from = reach->cells[i];
         for (uint32_t p = reach->space.portal_first[from]; p < reach->space.portal_first[from + 1]; p++) {
             uint32_t target = reach->space.layout->portals[p].target;
@@ -372,7 +391,7 @@ static bool prepare(Query *query, const uint32_t *triangles, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         const EnfSoupTriangle *record = &space->soup->triangles[triangles[i]];
         Sheet *sheet = &reach->sheets.data[i];
-        *sheet = (Sheet){.home = record->cell, .box = enf_box3_empty()};
+        *sheet = (Sheet){.home = record->cell, .node = record->node, .box = enf_box3_empty()};
         enf_soup_corners(space->soup, triangles[i], sheet->p);
         sheet->normal = enf_normalize(enf_cross(enf_sub(sheet->p[1], sheet->p[0]), enf_sub(sheet->p[2], sheet->p[0])));
         sheet->loose = space->layout->node_cells[record->node] == ENF_NONE;
@@ -413,11 +432,39 @@ uint32_t enf_reach_query(const EnfReach *constant, const uint32_t *triangles, ui
     }
     reach->query++;
     uint32_t first = list(reach, cell, &query.listed) ? 1 : 0; /* home is not reached, it is home */
+    reach_through_portals(&query, 0);
+    uint32_t through_portals = query.listed;
     reach_through_walls(&query);
-    reach_through_portals(&query);
+    reach_through_portals(&query, through_portals);
     uint32_t count = query.listed - first;
     qsort(&reach->cells[first], count, sizeof *reach->cells, compare_u32);
     uint32_t given = count < capacity ? count : capacity;
     memcpy(out, &reach->cells[first], given * sizeof *out);
     return given;
+}
+
+static int compare_crossings(const void *pa, const void *pb) {
+    const Crossing *a = pa, *b = pb;
+    if (a->node != b->node) {
+        return a->node < b->node ? -1 : 1;
+    }
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+void enf_reach_report(EnfReach *reach, EnfDiagnosis *diagnosis) {
+    const EnfLayout *layout = reach->space.layout;
+    Crossing *crossings = reach->crossings.data;
+    if (reach->crossings.count > 0) {
+        qsort(crossings, reach->crossings.count, sizeof *crossings, compare_crossings);
+    }
+    for (uint32_t i = 0; i < reach->crossings.count; i++) {
+        if (i > 0 && compare_crossings(&crossings[i], &crossings[i - 1]) == 0) {
+            continue;
+        }
+        uint32_t home = layout->node_cells[crossings[i].node];
+        enf_diagnose(diagnosis, ENF_DIAGNOSIS_GEOMETRY_CROSSES, layout->source->nodes[crossings[i].node].name,
+                     "it belongs to '%s' but reaches into '%s': it is drawn in both", layout->cells[home].name,
+                     layout->cells[crossings[i].cell].name);
+    }
+    reach->crossings.count = 0;
 }

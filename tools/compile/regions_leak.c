@@ -11,6 +11,7 @@ enum {
     SEEDS = 96,
     SURFACE_SEEDS = 24,
     PATH_POINTS = 96,
+    SMALL_CELL = 2048, /* triangles up to which a proof from all of them is tried, not only from the walls */
     VOXELS_IN_ALL = 24000000, /* shared by the cells that need a flood */
     VOXELS_LEAST = 16384,
     VOXELS_MOST = 2000000
@@ -308,7 +309,8 @@ static bool find_all(Leaks *leaks) {
             continue;
         }
         bool proved = false;
-        for (int attempt = 0; attempt < 2 && !proved; attempt++) {
+        uint32_t all = leaks->first[c + 1] - leaks->first[c];
+        for (int attempt = 0; attempt < (all <= SMALL_CELL ? 2 : 1) && !proved; attempt++) {
             if (!gather(leaks, c, attempt == 0 ? WALLS : 0.0) || !ENF_ARRAY_ROOM(&leaks->floods, 1)) {
                 return false;
             }
