@@ -258,7 +258,8 @@ static uint32_t add_room(Maker *maker, uint32_t x, uint32_t y, uint32_t z, uint3
     for (uint32_t i = first; i < end; i++) {
         say(&maker->nodes, "%s%u", i > first ? "," : "", i);
     }
-    say(&maker->nodes, "]}");
+    /* Extras somewhere, so that nobody is told which box to tick. */
+    say(&maker->nodes, "]%s}", room == 0 ? ",\"extras\":{\"kind\":\"grid\"}" : "");
     return end;
 }
 
