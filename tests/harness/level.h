@@ -105,8 +105,8 @@ static inline void level_triangle(Level *level, uint32_t node, EnfVec3 a, EnfVec
     data->count += 3;
     level->nodes[node].mesh = node;
     level->meshes[node] = (EnfSourceMesh){level->names[node], node, 1};
-    level->primitives[node] = (EnfSourcePrimitive){data->count, data->count, data->positions, data->normals, NULL, NULL,
-                                                   data->indices, material};
+    level->primitives[node] = (EnfSourcePrimitive){data->count, data->count, data->positions, data->normals,
+                                                   NULL,        NULL,        data->indices,   material};
     level->source.mesh_count = level->source.primitive_count = level->source.node_count;
     level->source.triangle_count++;
 }
@@ -127,12 +127,22 @@ static inline EnfVec3 level_on_face(int axis, double at, double u, double v) {
     return enf_v3(p[0], p[1], p[2]);
 }
 
-/* A rectangle at right angles to an axis; its front looks up the axis if `up`. */
-static inline void level_rectangle(Level *level, uint32_t node, int axis, double at, const double u[2], const double v[2], bool up,
-                                   uint32_t material) {
-    EnfVec3 p[4] = {level_on_face(axis, at, u[0], v[0]), level_on_face(axis, at, u[1], v[0]), level_on_face(axis, at, u[1], v[1]),
-                    level_on_face(axis, at, u[0], v[1])};
-    EnfVec3 q[4] = {p[0], p[3], p[2], p[1]};
+static inline int level_flat_axis(EnfBox3 flat) {
+    EnfVec3 size = enf_sub(flat.max, flat.min);
+    return size.x <= 0.0 ? 0 : size.y <= 0.0 ? 1 : 2;
+}
+
+/* A box flat along one axis, as a rectangle; its front looks up that axis if `up`. */
+static inline void level_rectangle(Level *level, uint32_t node, EnfBox3 flat, bool up, uint32_t material) {
+    int axis = level_flat_axis(flat), ua = (axis + 1) % 3, va = (axis + 2) % 3;
+    double at = level_axis(flat.min, axis);
+    EnfVec3 p[4], q[4];
+    for (int k = 0; k < 4; k++) {
+        bool high_u = k == 1 || k == 2, high_v = k >= 2;
+        p[k] = level_on_face(axis, at, level_axis(high_u ? flat.max : flat.min, ua),
+                             level_axis(high_v ? flat.max : flat.min, va));
+        q[(4 - k) % 4] = p[k];
+    }
     level_quad(level, node, up ? p : q, material);
 }
 
@@ -167,7 +177,8 @@ static inline void level_face(Level *level, uint32_t node, EnfBox3 room, int axi
                 open = enf_box3_contains(level->holes[found[h]], middle);
             }
             if (!open) {
-                level_rectangle(level, node, axis, at, &us[i], &vs[k], !high, material);
+                EnfBox3 part = {level_on_face(axis, at, us[i], vs[k]), level_on_face(axis, at, us[i + 1], vs[k + 1])};
+                level_rectangle(level, node, part, !high, material);
             }
         }
     }
@@ -202,11 +213,12 @@ static inline uint32_t level_room(Level *level, const char *name, EnfBox3 room) 
 /* A closed box with faces outward: furniture. */
 static inline uint32_t level_block(Level *level, const char *name, uint32_t parent, EnfBox3 box) {
     uint32_t node = level_node(level, name, parent);
-    for (int axis = 0; axis < 3; axis++) {
-        int ua = (axis + 1) % 3, va = (axis + 2) % 3;
-        double u[2] = {level_axis(box.min, ua), level_axis(box.max, ua)}, v[2] = {level_axis(box.min, va), level_axis(box.max, va)};
-        level_rectangle(level, node, axis, level_axis(box.min, axis), u, v, false, 0);
-        level_rectangle(level, node, axis, level_axis(box.max, axis), u, v, true, 0);
+    for (int face = 0; face < 6; face++) {
+        int axis = face / 2, ua = (axis + 1) % 3, va = (axis + 2) % 3;
+        double at = level_axis(face % 2 ? box.max : box.min, axis);
+        EnfBox3 flat = {level_on_face(axis, at, level_axis(box.min, ua), level_axis(box.min, va)),
+                        level_on_face(axis, at, level_axis(box.max, ua), level_axis(box.max, va))};
+        level_rectangle(level, node, flat, face % 2, 0);
     }
     return node;
 }
@@ -214,10 +226,7 @@ static inline uint32_t level_block(Level *level, const char *name, uint32_t pare
 /* A portal over a hole; its front looks up the axis along which the hole is flat, if `up`. */
 static inline uint32_t level_portal(Level *level, const char *name, uint32_t parent, EnfBox3 hole, bool up) {
     uint32_t node = level_node(level, name, parent);
-    EnfVec3 size = enf_sub(hole.max, hole.min);
-    int axis = size.x <= 0.0 ? 0 : size.y <= 0.0 ? 1 : 2, ua = (axis + 1) % 3, va = (axis + 2) % 3;
-    double u[2] = {level_axis(hole.min, ua), level_axis(hole.max, ua)}, v[2] = {level_axis(hole.min, va), level_axis(hole.max, va)};
-    level_rectangle(level, node, axis, level_axis(hole.min, axis), u, v, up, 0);
+    level_rectangle(level, node, hole, up, 0);
     return node;
 }
 

@@ -142,8 +142,7 @@ static void furniture_in_doors_is_listed_on_both_sides(void **state) {
         uint32_t corner = level_block(level, "corner", ENF_NONE, level_box(5, 0.25, 1, 6, 1, 2));
         uint32_t leaf = level_block(level, "leaf", rooms[1], level_box(4, 0, 2, 4.04, 2, 3));
         uint32_t sheet = level_node(level, "sheet", rooms[1]);
-        const double u[2] = {0, 2}, v[2] = {2, 3};
-        level_rectangle(level, sheet, 0, 4.0, u, v, true, 3);
+        level_rectangle(level, sheet, level_box(4, 0, 2, 4, 2, 3), true, 3);
         Built built = {.reach = NULL};
         build(&built, &level->source);
         assert_count(&built, 0);
@@ -173,8 +172,7 @@ static void long_things_are_listed_where_they_go(void **state) {
         uint32_t beam = level_block(level, "beam", rooms[0], level_box(1, 0.5, 2.25, 10, 0.75, 2.5));
         uint32_t pole = level_block(level, "pole", rooms[0], level_box(3, 2.5, 1, 6, 2.75, 1.25));
         uint32_t carpet = level_node(level, "carpet", ENF_NONE);
-        const double u[2] = {0.5, 14.5}, v[2] = {0.5, 11.5}; /* across z and x */
-        level_rectangle(level, carpet, 1, 0.01, u, v, true, 0);
+        level_rectangle(level, carpet, level_box(0.5, 0.01, 0.5, 11.5, 0.01, 14.5), true, 0);
         Built built = {.reach = NULL};
         build(&built, &level->source);
         assert_int_equal(reached(&built, beam, &home, other, 16), 2);
@@ -317,7 +315,8 @@ static uint32_t turned_box(const EnfAffine *a, EnfVec3 size, int n, EnfVec3 (*ou
 }
 
 static EnfAffine random_turn(EnfTestRng *rng) {
-    EnfVec3 axis = enf_normalize(enf_v3(enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1), enf_test_double(rng, 0.1, 1)));
+    EnfVec3 axis = enf_normalize(
+        enf_v3(enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1), enf_test_double(rng, 0.1, 1)));
     EnfVec3 t = enf_v3(enf_test_double(rng, -9, 9), enf_test_double(rng, -9, 9), enf_test_double(rng, -9, 9));
     return enf_affine_trs(t, enf_quat_axis_angle(axis, enf_test_double(rng, 0, 6)), enf_v3(1, 1, 1));
 }

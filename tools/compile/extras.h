@@ -8,17 +8,17 @@ enum { ENF_EXTRAS_NAME = 128 }; /**< longest name of a node in extras, with its 
 
 typedef struct EnfExtras {
     bool has_priority;
-    int32_t priority;               /**< `priority` of a room */
+    int32_t priority;                /**< `priority` of a room */
     char portal_to[ENF_EXTRAS_NAME]; /**< `portal_to` (makes a mesh a portal) or `to`: the target room; "" if absent */
-    bool makes_portal;              /**< `portal_to` is there */
-    char from[ENF_EXTRAS_NAME];     /**< `from`: the source room of a portal that is no child of one */
-    char teleport[ENF_EXTRAS_NAME]; /**< `teleport_to`, `portal_to_portal` or `target`: another portal's node or targetname */
+    bool makes_portal;               /**< `portal_to` is there */
+    char from[ENF_EXTRAS_NAME];      /**< `from`: the source room of a portal that is no child of one */
+    char teleport[ENF_EXTRAS_NAME];  /**< `teleport_to`, `portal_to_portal` or `target`: another portal's node or targetname */
     char targetname[ENF_EXTRAS_NAME];
-    bool two_way;                   /**< default true */
-    bool active;                    /**< default true; false: the portal starts closed */
+    bool two_way; /**< default true */
+    bool active;  /**< default true; false: the portal starts closed */
     bool mirror;
     bool has_transform;
-    EnfAffine transform;            /**< `transform`: 16 numbers, column-major as glTF's matrices */
+    EnfAffine transform; /**< `transform`: 16 numbers, column-major as glTF's matrices */
 } EnfExtras;
 
 /** Reads the keys above out of `json` (an object as text, or ""); what is not there, or of another type, keeps its default. Numbers

@@ -219,8 +219,7 @@ static void remark_on_export(const EnfLayoutWork *work) {
     const EnfSource *source = work->source;
     bool blender = source->generator != NULL && strstr(source->generator, "Blender") != NULL;
     if (!source->has_extras) {
-        enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_NO_EXTRAS, "",
-                     "the file has no extras%s: names alone say what a node is",
+        enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_NO_EXTRAS, "", "the file has no extras%s: names alone say what a node is",
                      blender ? " (in Blender's glTF export tick Include > Data > Custom Properties)" : "");
     }
     if (!source->has_lights) {

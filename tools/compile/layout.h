@@ -56,7 +56,7 @@ typedef struct EnfLayoutPortal {
 
 /** A cluster-to-be's extra cell is found per node or per triangle group in regions.c. */
 typedef struct EnfLayout {
-    const EnfSource *source;   /**< what it was made from; must outlive it */
+    const EnfSource *source; /**< what it was made from; must outlive it */
     EnfLayoutCell *cells;
     uint32_t cell_count; /**< OUTSIDE last, only if needed */
     EnfLayoutPortal *portals;

@@ -163,7 +163,8 @@ static bool make_bound(EnfLayoutWork *work, Bound *bound, EnfBox3 box) {
         if (enf_dot(plane.n, plane.n) < 0.5) {
             continue;
         }
-        if (enf_dot(plane.n, bound->centre) + plane.d > 0.0) { /* whichever way the face is wound, outward is away from the middle */
+        if (enf_dot(plane.n, bound->centre) + plane.d >
+            0.0) { /* whichever way the face is wound, outward is away from the middle */
             plane = (EnfPlane){enf_scale(plane.n, -1.0), -plane.d};
         }
         double over = beyond(bound, plane);

@@ -33,7 +33,8 @@ typedef struct Merge {
 } Merge;
 
 static EnfVec3 metres(EnfGrid3 a, EnfGrid3 b) {
-    return enf_v3((double)(a.x - b.x) * ENF_GRID_STEP, (double)(a.y - b.y) * ENF_GRID_STEP, (double)(a.z - b.z) * ENF_GRID_STEP);
+    return enf_v3((double)(a.x - b.x) * ENF_GRID_STEP, (double)(a.y - b.y) * ENF_GRID_STEP,
+                  (double)(a.z - b.z) * ENF_GRID_STEP);
 }
 
 static double magnitude(double a) {

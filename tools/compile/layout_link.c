@@ -17,7 +17,8 @@ typedef struct Wish {
 
 /* Names that say what the thing is, not where it leads: `door-portal`, `window_02-portal`. */
 static bool is_generic(const char *text, size_t length) {
-    static const char *const words[] = {"portal", "door", "doorway", "opening", "window", "arch", "gate", "passage", "hole", "plane"};
+    static const char *const words[] = {"portal", "door", "doorway", "opening", "window",
+                                        "arch",   "gate", "passage", "hole",    "plane"};
     while (length > 0 && ((text[length - 1] >= '0' && text[length - 1] <= '9') || strchr("._- ", text[length - 1]) != NULL)) {
         length--;
     }
@@ -196,8 +197,9 @@ static void link_loose(EnfLayoutWork *work, EnfOpening *opening, Wish wish) {
     if (opening->source == ENF_NONE || opening->target == ENF_NONE) {
         uint32_t known = opening->source != ENF_NONE ? opening->source : opening->target;
         enf_diagnose(work->diagnosis, ENF_DIAGNOSIS_PORTAL_OUTSIDE_ROOM, enf_opening_name(work, opening),
-                     "it is in no room, and %s%s%s lies on its sides; it was left out", known != ENF_NONE ? "only '" : "no room",
-                     known != ENF_NONE ? enf_layout_cell_name(work, known) : "", known != ENF_NONE ? "'" : "");
+                     "it is in no room, and %s%s%s lies on its sides; it was left out",
+                     known != ENF_NONE ? "only '" : "no room", known != ENF_NONE ? enf_layout_cell_name(work, known) : "",
+                     known != ENF_NONE ? "'" : "");
         opening->source = known;
         if (known != ENF_NONE) {
             drop_into_the_open(work, opening);

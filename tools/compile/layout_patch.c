@@ -70,7 +70,8 @@ static int compare_island(const void *pa, const void *pb) {
 }
 
 static EnfVec3 difference(EnfGrid3 a, EnfGrid3 b) {
-    return enf_v3((double)(a.x - b.x) * ENF_GRID_STEP, (double)(a.y - b.y) * ENF_GRID_STEP, (double)(a.z - b.z) * ENF_GRID_STEP);
+    return enf_v3((double)(a.x - b.x) * ENF_GRID_STEP, (double)(a.y - b.y) * ENF_GRID_STEP,
+                  (double)(a.z - b.z) * ENF_GRID_STEP);
 }
 
 EnfVec3 enf_grid_polygon_area(const EnfGrid3 *points, uint32_t count, EnfVec3 *centre) {

@@ -19,7 +19,8 @@ typedef struct Seams {
 static void add_edge(Seams *seams, EnfVec3 p, EnfVec3 q) {
     EnfVec3 u = enf_sub(p, seams->from), v = enf_sub(q, seams->from);
     double a = enf_dot(u, seams->along), b = enf_dot(v, seams->along);
-    double off_u = enf_length(enf_sub(u, enf_scale(seams->along, a))), off_v = enf_length(enf_sub(v, enf_scale(seams->along, b)));
+    double off_u = enf_length(enf_sub(u, enf_scale(seams->along, a))),
+           off_v = enf_length(enf_sub(v, enf_scale(seams->along, b)));
     if (off_u > SEAM_GAP || off_v > SEAM_GAP) {
         return;
     }

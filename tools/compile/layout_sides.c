@@ -17,7 +17,8 @@ static bool gather(SourceTriangles *out, const EnfSource *source, const EnfSourc
         if (!enf_material_seals(source, primitive->material)) {
             continue;
         }
-        if (!ENF_ARRAY_ROOM(&out->corners, primitive->index_count) || !ENF_ARRAY_ROOM(&out->cells, primitive->index_count / 3)) {
+        if (!ENF_ARRAY_ROOM(&out->corners, primitive->index_count) ||
+            !ENF_ARRAY_ROOM(&out->cells, primitive->index_count / 3)) {
             return false;
         }
         for (uint32_t t = 0; t < primitive->index_count / 3; t++) {
@@ -87,7 +88,8 @@ static bool bound_holds(const EnfShell *shell, EnfVec3 p) {
  * angle, so that they run along no wall that is square to the opening. */
 int enf_layout_side(EnfLayoutWork *work, uint32_t cell, EnfVec3 from, EnfVec3 normal) {
     enum { RINGS = 2, SPOKES = 4, ALL = 1 + SPOKES + 2 * SPOKES };
-    static const double along[RINGS] = {0.64278760968654, 0.17364817766693}, across[RINGS] = {0.76604444311898, 0.98480775301221};
+    static const double along[RINGS] = {0.64278760968654, 0.17364817766693},
+                        across[RINGS] = {0.76604444311898, 0.98480775301221};
     const EnfShell *shell = &work->shells.cells[cell];
     if (shell->bound_count > 0) {
         return bound_holds(shell, enf_add(from, enf_scale(normal, 0.05))) ? ALL : -ALL;
@@ -96,11 +98,11 @@ int enf_layout_side(EnfLayoutWork *work, uint32_t cell, EnfVec3 from, EnfVec3 no
     EnfVec3 u = enf_normalize(enf_cross(helper, normal)), v = enf_cross(normal, u);
     EnfVec3 sides[SPOKES] = {u, v, enf_scale(u, -1.0), enf_scale(v, -1.0)};
     EnfShellHit hit;
-    int score = enf_shell_ray(&work->shells, cell, from, normal, 0.01, 1e9, &hit) ? (hit.front ? 1 : -1) : 0;
+    int score = enf_shell_ray(&work->shells, cell, (EnfShellRay){from, normal, 0.01, 1e9}, &hit) ? (hit.front ? 1 : -1) : 0;
     for (int ring = 0; ring < RINGS; ring++) {
         for (int i = 0; i < SPOKES; i++) {
             EnfVec3 direction = enf_add(enf_scale(normal, along[ring]), enf_scale(sides[i], across[ring]));
-            if (enf_shell_ray(&work->shells, cell, from, direction, 0.01, 1e9, &hit)) {
+            if (enf_shell_ray(&work->shells, cell, (EnfShellRay){from, direction, 0.01, 1e9}, &hit)) {
                 score += (hit.front ? 1 : -1) * (1 + ring);
             }
         }

@@ -30,7 +30,8 @@ static bool boxes_agree(EnfBox3 a, EnfBox3 b, double snap) {
 static bool vertices_agree(const EnfLayoutWork *work, const EnfPatch *a, const EnfPatch *b, double snap) {
     const EnfPiece *pieces = work->patches.pieces.data;
     uint32_t a_first = pieces[a->piece_first].point_first, b_first = pieces[b->piece_first].point_first;
-    const EnfPiece *a_last = &pieces[a->piece_first + a->piece_count - 1], *b_last = &pieces[b->piece_first + b->piece_count - 1];
+    const EnfPiece *a_last = &pieces[a->piece_first + a->piece_count - 1],
+                   *b_last = &pieces[b->piece_first + b->piece_count - 1];
     uint32_t a_end = a_last->point_first + a_last->point_count, b_end = b_last->point_first + b_last->point_count;
     for (uint32_t i = a_first; i < a_end; i++) {
         bool found = false;
@@ -90,7 +91,8 @@ void enf_layout_twins(EnfLayoutWork *work) {
         const EnfOpening *opening = &work->openings.data[i];
         if (!opening->dropped && !opening->has_transform) {
             bool ordered = opening->source < opening->target;
-            pairs[count++] = (Pair){ordered ? opening->source : opening->target, ordered ? opening->target : opening->source, i};
+            pairs[count++] = (Pair){ordered ? opening->source : opening->target, ordered ? opening->target : opening->source,
+                                    i};
         }
     }
     qsort(pairs, count, sizeof *pairs, compare_pairs);

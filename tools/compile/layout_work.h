@@ -12,7 +12,7 @@
 /** One opening as authored: a planar island of a portal's mesh. */
 typedef struct EnfOpening {
     uint32_t node;
-    uint32_t extras;         /**< in EnfLayoutWork.extras, or ENF_NONE */
+    uint32_t extras; /**< in EnfLayoutWork.extras, or ENF_NONE */
     EnfPatch patch;
     uint32_t source, target; /**< cells, ENF_NONE while unknown */
     uint32_t twin;           /**< the opening given on the other side, or ENF_NONE; the lower of the two gives the polygon */

@@ -6,18 +6,17 @@
 static const struct {
     const char *text;
     unsigned near;
-} suffixes[ENF_SUFFIX_COUNT] = {
-    {"", 0},
+} suffixes[ENF_SUFFIX_COUNT] = {{"", 0},
 #define ENF_SUFFIX_ROW(name, text, near) {text, near},
-    ENF_SUFFIXES(ENF_SUFFIX_ROW)
+                                ENF_SUFFIXES(ENF_SUFFIX_ROW)
 #undef ENF_SUFFIX_ROW
 };
 
 /* Words that end many node names and are no misspelling of a suffix, though they are near one. */
-static const char *const ordinary_words[] = {"roof",   "root",   "door",  "boom",  "broom", "groom", "loom",  "zoom",
-                                             "doom",   "roam",   "round", "sound", "found", "mound", "hound", "pound",
-                                             "wound",  "ground", "bond",  "port",  "total", "metal", "petal", "postal",
-                                             "mortal", "norma",  "parts", "part"};
+static const char *const ordinary_words[] = {"roof",  "root",  "door",   "boom",   "broom", "groom", "loom",
+                                             "zoom",  "doom",  "roam",   "round",  "sound", "found", "mound",
+                                             "hound", "pound", "wound",  "ground", "bond",  "port",  "total",
+                                             "metal", "petal", "postal", "mortal", "norma", "parts", "part"};
 
 const char *enf_suffix_text(EnfSuffix suffix) {
     ENF_ASSERT(suffix < ENF_SUFFIX_COUNT);

@@ -245,7 +245,8 @@ static void look(Query *query, const Sheet *sheet, EnfVec3 centre, EnfVec3 norma
 }
 
 /* Which of the cells come near a triangle, or near its front? */
-static uint32_t keep_near(const Query *query, const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count, uint32_t *out) {
+static uint32_t keep_near(const Query *query, const Sheet *sheet, const EnfVec3 p[3], const uint32_t *cells, uint32_t count,
+                          uint32_t *out) {
     const EnfReach *reach = query->reach;
     EnfVec3 around[6];
     uint32_t kept = 0;

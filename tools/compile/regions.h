@@ -14,14 +14,14 @@ enum { ENF_FACE_OPEN = 1 /**< closes nothing off */, ENF_FACE_TWO_SIDED = 2 };
 typedef struct EnfSpace {
     const EnfLayout *layout;
     const EnfSoup *soup;
-    uint8_t *faces;            /**< ENF_FACE_* by material */
+    uint8_t *faces; /**< ENF_FACE_* by material */
     uint32_t material_count;
-    uint32_t *portal_first;    /**< half-portals of cell c: [portal_first[c], portal_first[c + 1]) */
-    uint32_t *fan_first;       /**< triangles of portal p, as a fan: [fan_first[p], fan_first[p + 1]) */
-    bool *furnished;           /**< by cell: its author put sealing triangles into it */
+    uint32_t *portal_first; /**< half-portals of cell c: [portal_first[c], portal_first[c + 1]) */
+    uint32_t *fan_first;    /**< triangles of portal p, as a fan: [fan_first[p], fan_first[p + 1]) */
+    bool *furnished;        /**< by cell: its author put sealing triangles into it */
     uint32_t cell_count, portal_count;
     EnfShells shells;
-    EnfKdBuilt tree;           /**< items are cells, world boxes */
+    EnfKdBuilt tree; /**< items are cells, world boxes */
 } EnfSpace;
 
 /** Shells of every cell but OUTSIDE, from its triangles and portals. What is loose counts only where the author gave the cell nothing:

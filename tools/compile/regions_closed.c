@@ -89,8 +89,8 @@ static bool push_edge(Closing *closing, uint32_t from, uint32_t to, uint32_t tri
     if (!ENF_ARRAY_ROOM(&closing->edges, 1)) {
         return false;
     }
-    closing->edges.data[closing->edges.count++] =
-        (Edge){from < to ? from : to, from < to ? to : from, triangle, from < to ? 1 : -1};
+    closing->edges.data[closing->edges.count++] = (Edge){from < to ? from : to, from < to ? to : from, triangle,
+                                                         from < to ? 1 : -1};
     return true;
 }
 
@@ -236,7 +236,8 @@ static int crossing(const EnfGrid3 *corners, EnfVec3 p, EnfVec3 direction) {
 }
 
 bool enf_surface_encloses(const EnfSurface *surface, const bool *closed, EnfVec3 p) {
-    static const EnfVec3 rays[3] = {{0.577215, 0.693147, 0.431734}, {-0.618034, 0.302585, 0.725661}, {0.137035, -0.914213, 0.381966}};
+    static const EnfVec3 rays[3] = {
+        {0.577215, 0.693147, 0.431734}, {-0.618034, 0.302585, 0.725661}, {0.137035, -0.914213, 0.381966}};
     for (int i = 0; i < 3; i++) {
         int sum = 0;
         for (uint32_t t = 0; t < surface->triangle_count; t++) {

@@ -11,7 +11,7 @@ enum {
     SEEDS = 96,
     SURFACE_SEEDS = 24,
     PATH_POINTS = 96,
-    SMALL_CELL = 2048, /* triangles up to which a proof from all of them is tried, not only from the walls */
+    SMALL_CELL = 2048,        /* triangles up to which a proof from all of them is tried, not only from the walls */
     VOXELS_IN_ALL = 24000000, /* shared by the cells that need a flood */
     VOXELS_LEAST = 16384,
     VOXELS_MOST = 2000000
@@ -232,7 +232,8 @@ static uint32_t seed_voxels(Leaks *leaks, uint32_t cell, uint32_t *voxels) {
             EnfVec3 p = enf_add(leaks->seeds[i], enf_scale(leaks->inward[i], steps[s] * leaks->voxels.size));
             uint32_t voxel = enf_voxels_at(&leaks->voxels, p);
             bool free_voxel = voxel != ENF_NONE && leaks->voxels.solid[voxel] != 1;
-            if (free_voxel && enf_shell_inside(&leaks->space->shells, cell, enf_voxels_centre(&leaks->voxels, voxel), 0.0, true)) {
+            if (free_voxel &&
+                enf_shell_inside(&leaks->space->shells, cell, enf_voxels_centre(&leaks->voxels, voxel), 0.0, true)) {
                 voxels[count++] = voxel;
                 break;
             }
@@ -266,9 +267,10 @@ static void report(Leaks *leaks, uint32_t cell, uint32_t exit) {
         }
     }
     layout->cells[cell].flags |= ENF_CELL_OPEN;
-    enf_diagnose(leaks->regions->diagnosis, ENF_DIAGNOSIS_ROOM_LEAK, layout->cells[cell].name,
-                 "a gap of about %.2f m or more leads out of the room near (%.2f, %.2f, %.2f): whoever sees into it is shown everything",
-                 leaks->voxels.size * 2.0, hole.x, hole.y, hole.z);
+    enf_diagnose(
+        leaks->regions->diagnosis, ENF_DIAGNOSIS_ROOM_LEAK, layout->cells[cell].name,
+        "a gap of about %.2f m or more leads out of the room near (%.2f, %.2f, %.2f): whoever sees into it is shown everything",
+        leaks->voxels.size * 2.0, hole.x, hole.y, hole.z);
     enf_diagnose_points(leaks->regions->diagnosis, points, count);
 }
 

@@ -94,7 +94,8 @@ static void unite(Loose *loose, uint32_t first, uint32_t end) {
     qsort(loose->corners, count, sizeof *loose->corners, compare_corner);
     for (uint32_t i = 1; i < count; i++) {
         if (enf_grid_equal(loose->corners[i].p, loose->corners[i - 1].p)) {
-            uint32_t a = find(loose->parents, loose->corners[i].triangle), b = find(loose->parents, loose->corners[i - 1].triangle);
+            uint32_t a = find(loose->parents, loose->corners[i].triangle),
+                     b = find(loose->parents, loose->corners[i - 1].triangle);
             loose->parents[a > b ? a : b] = a < b ? a : b;
         }
     }
@@ -182,9 +183,10 @@ static bool settle_node(Loose *loose, uint32_t first, uint32_t end) {
     free(keys);
     free(members);
     if (lost > 0) {
-        enf_diagnose(loose->regions->diagnosis, ENF_DIAGNOSIS_NODE_OUTSIDE, loose->regions->source->nodes[node].name,
-                     "%u of its %u triangles lie in no room: they are drawn only where the eye is outside, or sees into an open room",
-                     lost, count);
+        enf_diagnose(
+            loose->regions->diagnosis, ENF_DIAGNOSIS_NODE_OUTSIDE, loose->regions->source->nodes[node].name,
+            "%u of its %u triangles lie in no room: they are drawn only where the eye is outside, or sees into an open room",
+            lost, count);
     }
     return ok;
 }

@@ -26,8 +26,9 @@ static bool is_ancestor(const EnfLayout *layout, uint32_t above, uint32_t below)
 
 static bool in_both(const Overlap *overlap, EnfVec3 p) {
     EnfShells *shells = &overlap->space->shells;
-    return enf_shell_near(&shells->cells[overlap->a], &p, 1, DEPTH) && enf_shell_near(&shells->cells[overlap->b], &p, 1, DEPTH) &&
-           enf_shell_inside(shells, overlap->a, p, DEPTH, true) && enf_shell_inside(shells, overlap->b, p, DEPTH, true);
+    return enf_shell_near(&shells->cells[overlap->a], &p, 1, DEPTH) &&
+           enf_shell_near(&shells->cells[overlap->b], &p, 1, DEPTH) && enf_shell_inside(shells, overlap->a, p, DEPTH, true) &&
+           enf_shell_inside(shells, overlap->b, p, DEPTH, true);
 }
 
 static uint32_t count_lattice(const Overlap *overlap, int n) {
@@ -67,7 +68,8 @@ static bool push_links(EnfLayout *layout, uint32_t a, uint32_t b) {
     }
     layout->portals = grown;
     uint32_t first = layout->portal_count;
-    EnfLayoutPortal link = {.name = "", .node = ENF_NONE, .source = a, .target = b, .twin = first + 1, .flags = ENF_PORTAL_OVERLAP};
+    EnfLayoutPortal link = {
+        .name = "", .node = ENF_NONE, .source = a, .target = b, .twin = first + 1, .flags = ENF_PORTAL_OVERLAP};
     grown[layout->portal_count++] = link;
     link.source = b, link.target = a, link.twin = first;
     grown[layout->portal_count++] = link;
@@ -87,7 +89,8 @@ static bool test_pair(Overlap *overlap) {
     if (enf_box3_is_empty(overlap->box)) {
         return true;
     }
-    bool found = count_lattice(overlap, LATTICE) > 0 || surface_pokes(overlap, overlap->a) || surface_pokes(overlap, overlap->b);
+    bool found = count_lattice(overlap, LATTICE) > 0 || surface_pokes(overlap, overlap->a) ||
+                 surface_pokes(overlap, overlap->b);
     if (!found) {
         return true;
     }

@@ -52,7 +52,7 @@ static uint32_t index_of(const EnfVoxels *voxels, const int c[3]) {
 /* A triangle in voxel units, with its axes in order: two across, one along the way that it faces. */
 typedef struct Flat {
     int axis[3];
-    double p[3][3]; /* corner, axis */
+    double p[3][3];          /* corner, axis */
     double a[3], b[3], c[3]; /* edges: a u + b v + c >= 0 inside */
     double slope_u, slope_v;
     double low, high; /* along the third axis */

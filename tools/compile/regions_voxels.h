@@ -7,11 +7,11 @@
 
 typedef struct EnfVoxels {
     EnfVec3 min;
-    double size;       /**< metres: edge of a voxel */
+    double size; /**< metres: edge of a voxel */
     int n[3];
-    uint8_t *solid;    /**< by voxel: 1 marked, 2 flooded */
+    uint8_t *solid;         /**< by voxel: 1 marked, 2 flooded */
     uint32_t *queue, *from; /**< the flood's order, and by voxel which one it came from */
-    uint32_t capacity; /**< voxels that the arrays hold */
+    uint32_t capacity;      /**< voxels that the arrays hold */
 } EnfVoxels;
 
 /** Voxels of at most `size` metres over `box` and two rows around it; larger ones if there were more than `limit`. Reuses memory. */

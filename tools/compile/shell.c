@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum {
-    SMALL_SHELL = 24,   /* triangles up to which a ray tries each */
+    SMALL_SHELL = 24,    /* triangles up to which a ray tries each */
     AXIS_CANDIDATES = 32 /* directions remembered while the main ones are sought */
 };
 
@@ -290,20 +290,20 @@ bool enf_shell_touches(EnfShells *shells, uint32_t cell, EnfBox3 box) {
     return false;
 }
 
-bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direction, double t_min, double t_max,
-                   EnfShellHit *hit) {
+bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfShellRay ray, EnfShellHit *hit) {
     EnfShell *shell = &shells->cells[cell];
-    EnfVec3 start = enf_sub(enf_add(from, enf_scale(direction, t_min)), shell->origin);
-    Cast cast = {shells, shell->first, start, direction, t_max - t_min, false, false, shell->inverted};
+    EnfVec3 start = enf_sub(enf_add(ray.from, enf_scale(ray.direction, ray.t_min)), shell->origin);
+    double length = ray.t_max - ray.t_min;
+    Cast cast = {shells, shell->first, start, ray.direction, length, false, false, shell->inverted};
     if (needs_tree(shells, shell)) {
         EnfKdTree tree = enf_kd_tree(&shell->tree);
-        enf_kd_ray(&tree, start, direction, t_max - t_min, try_triangle, &cast);
+        enf_kd_ray(&tree, start, ray.direction, length, try_triangle, &cast);
     } else {
         for (uint32_t i = 0; i < shell->count; i++) {
-            try_triangle(&cast, i, t_max - t_min);
+            try_triangle(&cast, i, length);
         }
     }
-    *hit = (EnfShellHit){cast.best + t_min, cast.front};
+    *hit = (EnfShellHit){cast.best + ray.t_min, cast.front};
     return cast.hit;
 }
 
@@ -358,7 +358,7 @@ bool enf_shell_inside(EnfShells *shells, uint32_t cell, EnfVec3 p, double depth,
     double reach = 2.0 * depth; /* √3 depth and the rounding */
     for (int i = 0; i < ENF_SHELL_RAYS; i++) {
         EnfShellHit hit;
-        if (!enf_shell_ray(shells, cell, p, rays[i], -reach, DBL_MAX / 4, &hit)) {
+        if (!enf_shell_ray(shells, cell, (EnfShellRay){p, rays[i], -reach, DBL_MAX / 4}, &hit)) {
             miss++;
         } else if (hit.t <= reach && depth > 0.0) {
             return false;
@@ -388,7 +388,7 @@ bool enf_shell_open_to(EnfShells *shells, uint32_t cell, EnfVec3 p, EnfVec3 norm
         if (enf_dot(rays[i], normal) <= 0.0) {
             continue;
         }
-        if (!enf_shell_ray(shells, cell, p, rays[i], 0.0, DBL_MAX / 4, &hit)) {
+        if (!enf_shell_ray(shells, cell, (EnfShellRay){p, rays[i], 0.0, DBL_MAX / 4}, &hit)) {
             missed++;
         } else if (!hit.front) {
             return false;

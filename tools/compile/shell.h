@@ -11,16 +11,16 @@
 enum { ENF_SHELL_AXES = 8, ENF_SHELL_RAYS = 6 };
 
 typedef struct EnfShell {
-    EnfVec3 origin;               /**< triangles are relative to it */
-    EnfBox3 box;                  /**< world; of the triangles, or of the bound */
-    uint32_t first, count;        /**< in triangles */
+    EnfVec3 origin;        /**< triangles are relative to it */
+    EnfBox3 box;           /**< world; of the triangles, or of the bound */
+    uint32_t first, count; /**< in triangles */
     bool inverted;
-    const EnfPlane *bound;        /**< the convex region that decides instead of rays, if bound_count > 0; not owned */
+    const EnfPlane *bound; /**< the convex region that decides instead of rays, if bound_count > 0; not owned */
     uint32_t bound_count;
-    uint32_t axis_count;          /**< a slab for each of the main directions that its surfaces face */
+    uint32_t axis_count; /**< a slab for each of the main directions that its surfaces face */
     EnfVec3 axes[ENF_SHELL_AXES];
     double low[ENF_SHELL_AXES], high[ENF_SHELL_AXES];
-    EnfKdBuilt tree;              /**< made at the first ray, for large shells only */
+    EnfKdBuilt tree; /**< made at the first ray, for large shells only */
     bool has_tree;
 } EnfShell;
 
@@ -45,14 +45,16 @@ void enf_shells_free(EnfShells *shells);
 /** A cell's convex region, which then decides what is inside; `planes` with outward normals, kept by the caller. */
 void enf_shell_set_bound(EnfShell *shell, const EnfPlane *planes, uint32_t count, EnfBox3 box);
 
+typedef struct EnfShellRay {
+    EnfVec3 from, direction; /**< world; metres are counted if `direction` is unit */
+    double t_min, t_max;
+} EnfShellRay;
 typedef struct EnfShellHit {
     double t;
     bool front;
 } EnfShellHit;
-/** The first surface of a cell met between t_min and t_max (metres if `direction` is unit). A front counts before a back at the same
- *  place: the two faces of a sheet. */
-bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfVec3 from, EnfVec3 direction, double t_min, double t_max,
-                   EnfShellHit *hit);
+/** The first surface of a cell met between t_min and t_max. A front counts before a back at the same place: the two faces of a sheet. */
+bool enf_shell_ray(EnfShells *shells, uint32_t cell, EnfShellRay ray, EnfShellHit *hit);
 
 /** Triangles of a cell (counted from its first) whose boxes may overlap `box`, which is relative to the shell's origin; at most
  *  `capacity`. */
