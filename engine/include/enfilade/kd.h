@@ -65,8 +65,8 @@ EnfResult enf_kd_check(const EnfKdTree *tree, uint32_t item_count, EnfError *err
 
 /** Items whose box the pyramid may see, in depth-first order, into out[0..capacity). Returns how many there are in all (a
  *  result > capacity means that out was too small; no more than capacity are written). Adds to *counters (may be NULL).
- *  @guarantee equals a brute-force loop of enf_pyramid_box over all boxes, except that a node rejected as a whole may leave out
- *  boxes which the loop keeps only by its error margin; never an item with a point inside the exact pyramid.
+ *  @guarantee exactly the items that a loop of enf_pyramid_box over all boxes keeps, on every SIMD variant: rounding is monotone, so a
+ *  rejected node holds no box that would be kept.
  *  tests/property/test_kd */
 uint32_t enf_kd_query(const EnfKdTree *tree, const EnfPyramid *pyramid, uint32_t *out, uint32_t capacity,
                       EnfKdCounters *counters);

@@ -223,7 +223,8 @@ uint32_t enf_map_find_cell(const EnfMap *map, const char *name);
 /** The cell that `p_ws` lies in: by `-bound` planes, else by what a few fixed rays meet first among the cell's opaque surfaces and
  *  its portals (a front, or a portal from within: inside; a back: outside); highest priority, then smallest volume wins. A point
  *  within a thing in the room (a barrel) is in the room. Double-sided surfaces count only where most of the cell is. ENF_NONE
- *  outside every cell. For spawn and teleport; a walking eye is tracked with enf_map_track. @cost some 50 µs; no memory.
+ *  outside every cell. For spawn and teleport; a walking eye is tracked with enf_map_track. @cost tens of µs, hundreds in rooms of 10^4 triangles; no
+ *  memory.
  *  @guarantee tests/property/test_locate, test_walks */
 uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws);
 
