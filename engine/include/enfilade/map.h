@@ -188,10 +188,10 @@ typedef struct EnfMap {
     uint32_t array##_count;
     ENF_MAP_CHUNKS(ENF_MAP_FIELD)
 #undef ENF_MAP_FIELD
-    double tree_origin[3];  /**< world; in the file a chunk of its own, "ORIG" */
-    uint64_t hash;        /**< of the content: identifies the map in recordings */
-    uint64_t source_hash; /**< of the glTF and project that it was compiled from */
-    EnfFile file;         /**< the memory behind the arrays (empty where the caller owns them) */
+    double tree_origin[3]; /**< world; in the file a chunk of its own, "ORIG" */
+    uint64_t hash;         /**< of the content: identifies the map in recordings */
+    uint64_t source_hash;  /**< of the glTF and project that it was compiled from */
+    EnfFile file;          /**< the memory behind the arrays (empty where the caller owns them) */
 } EnfMap;
 
 /** Reads and checks: the map either is sound or is refused with file, byte offset and field. Free with enf_map_free. */
