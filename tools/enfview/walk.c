@@ -74,19 +74,34 @@ uint32_t walk_view_count(const Walk *walk) {
     return walk->path.count / every + (walk->path.count % every != 0);
 }
 
+/* The cells in view: those looked into, and those whose surfaces reach into one and are listed there. */
+static void mark_cells(const EnfMap *map, const EnfVisSet *set, uint8_t *in_view) {
+    for (uint32_t i = 0; in_view && i < set->cell_count; i++) {
+        in_view[set->cells[i]] = 1;
+    }
+    for (uint32_t i = 0; in_view && i < set->entry_count; i++) {
+        in_view[map->clusters[set->entries[i].cluster].cell] = 1;
+    }
+}
+
 void walk_write_cells(Walk *walk, const EnfVisSet *set) {
     if (!walk->cells) {
         return;
     }
+    const EnfMap *map = &walk->viewer->map;
     EnfReport line = {0};
     enf_report_object(&line, NULL);
     enf_report_number(&line, "time", walk->time);
     enf_report_array(&line, "cells");
-    for (uint32_t i = 0; i < set->cell_count; i++) {
-        if (!(walk->viewer->map.cells[set->cells[i]].flags & ENF_CELL_OUTSIDE)) {
-            enf_report_text(&line, NULL, viewer_cell_name(walk->viewer, set->cells[i]));
+    uint8_t *in_view = enf_alloc(NULL, map->cells_count, 1);
+    mark_cells(map, set, in_view);
+    for (uint32_t cell = 0; in_view && cell < map->cells_count; cell++) {
+        if (in_view[cell] && !(map->cells[cell].flags & ENF_CELL_OUTSIDE)) {
+            enf_report_text(&line, NULL, viewer_cell_name(walk->viewer, cell));
         }
     }
+    walk->cells_failed = walk->cells_failed || !in_view;
+    enf_free(NULL, in_view, map->cells_count, 1);
     enf_report_end_array(&line);
     enf_report_end_object(&line);
     if (line.failed || fprintf(walk->cells, "%s\n", line.text) < 0) {
