@@ -6,6 +6,21 @@
 
 #include "gl/context_internal.h"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define ENF_LEAKS_ARE_LOOKED_FOR
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ENF_LEAKS_ARE_LOOKED_FOR
+#endif
+#endif
+#ifdef ENF_LEAKS_ARE_LOOKED_FOR
+/* Mesa keeps some blocks for ever (22.3: OSMesa's window, what LLVM's drivers register); they are not ours to free. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_suppressions(void) {
+    return "leak:libOSMesa\nleak:libEGL\nleak:libGLX\nleak:_dri.so\nleak:libgallium\nleak:libLLVM\n";
+}
+#endif
+
 /* llvmpipe with vectors of 512 bits crashes in LLVM 15 (PITFALLS 32). */
 static void avoid_wide_vectors(void) {
     const char *width = getenv("LP_NATIVE_VECTOR_WIDTH");

@@ -11,7 +11,6 @@
 #define ENF_EGL_FUNCTIONS(X)                                                                                                   \
     X(GetProcAddress, PFNEGLGETPROCADDRESSPROC)                                                                                \
     X(Initialize, PFNEGLINITIALIZEPROC)                                                                                        \
-    X(Terminate, PFNEGLTERMINATEPROC)                                                                                          \
     X(BindAPI, PFNEGLBINDAPIPROC)                                                                                              \
     X(ChooseConfig, PFNEGLCHOOSECONFIGPROC)                                                                                    \
     X(CreateContext, PFNEGLCREATECONTEXTPROC)                                                                                  \
@@ -24,7 +23,6 @@ static struct {
     ENF_EGL_FUNCTIONS(ENF_EGL_MEMBER)
 #undef ENF_EGL_MEMBER
     bool loaded;
-    int users; /* contexts on the one surfaceless display: the last one closes it */
 } egl;
 
 static bool load_library(void) {
@@ -75,16 +73,10 @@ static EGLContext open_context(EGLDisplay display) {
     return handle;
 }
 
-static void release_display(EGLDisplay display) {
-    if (--egl.users == 0) {
-        egl.Terminate(display);
-    }
-}
-
+/* The display stays open: it is the process's, and terminating it would end it for everyone. */
 static void destroy(EnfContext *context) {
     egl.MakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     egl.DestroyContext(context->display, context->handle);
-    release_display(context->display);
 }
 
 EnfResult enf_context_open_egl(EnfContext *context, EnfError *error) {
@@ -96,13 +88,10 @@ EnfResult enf_context_open_egl(EnfContext *context, EnfError *error) {
         return enf_error_set(error, ENF_ERROR_CONTEXT, UINT64_MAX, "EGL has no surfaceless display (error 0x%x)",
                              (unsigned)egl.GetError());
     }
-    egl.users++;
     context->handle = open_context(context->display);
     if (context->handle == EGL_NO_CONTEXT) {
-        EnfResult result = enf_error_set(error, ENF_ERROR_CONTEXT, UINT64_MAX,
-                                         "EGL has no OpenGL 3.3 core context (error 0x%x)", (unsigned)egl.GetError());
-        release_display(context->display);
-        return result;
+        return enf_error_set(error, ENF_ERROR_CONTEXT, UINT64_MAX, "EGL has no OpenGL 3.3 core context (error 0x%x)",
+                             (unsigned)egl.GetError());
     }
     context->name = "egl";
     context->load = load_function;
