@@ -61,6 +61,7 @@ typedef struct EnfDbvPlaces {
     uint32_t *parents;   /**< ENF_NONE at the root of the cells' tree and for the OUTSIDE cell */
     uint32_t *heads;     /**< a place: first block, or ENF_NONE */
     uint32_t *below;     /**< a place within a cell (kd nodes): entries there and beneath; others 0 */
+    EnfBox3 *boxes;      /**< of nodes and cells, world */
     bool *shared;        /**< a node or cell: cells from elsewhere reach into its box */
     uint32_t *hot_frame; /**< a place that is or holds a seen cell: the frame that saw it */
 } EnfDbvPlaces;
@@ -128,8 +129,8 @@ void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
 bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t from);
 /** The place that an object's volume hangs on first, or ENF_NONE. */
 uint32_t enf_dbv_place_of(const EnfDbvIndex *index, uint32_t object);
-/** Does `box` touch a cell seen in the last frame? */
-bool enf_dbv_touches_seen(EnfDbvIndex *index, EnfBox3f box);
+/** Does `box` touch no more cells than a volume hangs on? */
+bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f box);
 /** The distance from `box` to the nearest cell seen in the last frame; below 0 if it touches one, HUGE_VAL if none was seen. */
 double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
 
@@ -157,6 +158,12 @@ static inline void enf_dbv_prefetch(const void *address) {
 #else
     (void)address;
 #endif
+}
+
+static inline void enf_dbv_prefetch_block(const EnfDbvBlock *block) {
+    for (size_t at = 0; at < sizeof *block; at += 64) {
+        enf_dbv_prefetch((const char *)block + at);
+    }
 }
 
 /* index.c */

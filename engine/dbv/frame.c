@@ -6,7 +6,7 @@
 
 /* Sleepers found on a node of the cells' tree above a seen cell are hung anew, lower down, so many a frame: the eye's approach is
  * paid for in instalments. Until then they are tested, never missed. */
-#define DISTURBED_A_FRAME 512U
+#define DISTURBED_A_FRAME 64U
 
 /* ---- begin ------------------------------------------------------------------------------------------------------ */
 
@@ -58,14 +58,23 @@ static bool take_in_changes(EnfDbvIndex *index) {
 /* The due are many and far apart in memory: the next ones are asked for while one is worked on; first the record, then what it
  * names. */
 static void prefetch_due(const EnfDbvIndex *index, uint32_t i) {
-    if (i + 16 < index->due.count) {
-        enf_dbv_prefetch(&index->volumes[index->due.items[i + 16]]);
-        enf_world_prefetch(index->world, index->due.items[i + 16]);
+    const EnfDbvPool *pool = &index->pool;
+    const uint32_t *due = index->due.items;
+    if (i + 12 < index->due.count) {
+        enf_dbv_prefetch(&index->volumes[due[i + 12]]);
+        enf_world_prefetch(index->world, due[i + 12]);
     }
-    if (i + 6 < index->due.count) {
-        const EnfDbvVolume *volume = &index->volumes[index->due.items[i + 6]];
+    if (i + 8 < index->due.count) {
+        const EnfDbvVolume *volume = &index->volumes[due[i + 8]];
         for (uint32_t k = 0; k < volume->link_count; k++) {
-            enf_dbv_prefetch(enf_dbv_block(&index->pool, volume->links[k] / ENF_KD_BLOCK));
+            enf_dbv_prefetch_block(enf_dbv_block(pool, volume->links[k] / ENF_KD_BLOCK));
+        }
+    }
+    if (i + 4 < index->due.count) {
+        const EnfDbvVolume *volume = &index->volumes[due[i + 4]];
+        for (uint32_t k = 0; k < volume->link_count; k++) {
+            uint32_t place = enf_dbv_block(pool, volume->links[k] / ENF_KD_BLOCK)->place;
+            enf_dbv_prefetch_block(enf_dbv_block(pool, index->places.heads[place]));
         }
     }
 }
@@ -154,10 +163,7 @@ static void test_place(EnfDbvIndex *index, uint32_t place, const Look *look, boo
         const EnfDbvBlock *block = enf_dbv_block(&index->pool, number);
         number = block->next;
         if (number != ENF_NONE) {
-            const char *next = (const char *)enf_dbv_block(&index->pool, number);
-            for (size_t line = 0; line < sizeof *block; line += 64) {
-                enf_dbv_prefetch(next + line);
-            }
+            enf_dbv_prefetch_block(enf_dbv_block(&index->pool, number));
         }
         uint32_t mask = look->simd->boxes(&look->planes, block->boxes.min_x, look->planes.all);
         index->counters.tested += block->count;
@@ -228,15 +234,23 @@ void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
 
 /* ---- end -------------------------------------------------------------------------------------------------------- */
 
-/* New volumes for what was exposed: a drawn object keeps its volume until it expires if that is short already; one that was shown
- * only by its volume gets a tighter one. */
+/* Is a volume short enough to be left until it ends? A drawn object's is hardly looser than itself; one that showed and its object
+ * not would not get a tighter one while it is young. */
+static bool stays(const EnfDbvIndex *index, const EnfDbvExposure *exposure) {
+    const EnfDbvVolume *volume = &index->volumes[exposure->object];
+    if (index->def.policy == ENF_DBV_CONSTANT || volume->period <= 1) {
+        return true;
+    }
+    int64_t left = volume->expiry_tick - enf_world_tick(index->world);
+    bool young = enf_dbv_keeps_off_seen(index) && left > (int64_t)(volume->period / 2);
+    return volume->period <= (uint32_t)ENF_DBV_DRAWN_PERIOD && (exposure->drawn || young);
+}
+
+/* New volumes for what was exposed. */
 static void renew_exposed(EnfDbvIndex *index) {
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];
-        const EnfDbvVolume *volume = &index->volumes[exposure->object];
-        bool constant = index->def.policy == ENF_DBV_CONSTANT;
-        bool shortest = volume->period <= (exposure->drawn ? (uint32_t)ENF_DBV_DRAWN_PERIOD : 1U);
-        if (!constant && !shortest) {
+        if (!stays(index, exposure)) {
             enf_dbv_renew(index, exposure->object, exposure->drawn ? ENF_DBV_DRAWN : ENF_DBV_SEEN);
         }
     }

@@ -7,7 +7,13 @@
 /* A drawn object will be drawn again: its volume is renewed a few times a second, and is hardly looser than itself. */
 #define DRAWN_PERIOD ((uint32_t)ENF_DBV_DRAWN_PERIOD)
 /* Halvings while a cover holds a seen cell: below it the volume stays, and is tested in the frames that see that cell. */
-#define COVER_TRIES 6U
+#define COVER_TRIES 2U
+/* How much of the way to the nearest seen cell a volume may take. All of it would need the fewest renewals; but then, when a door
+ * comes into sight, the volumes of half the world reach into the room behind it, and that frame wakes them all (PITFALLS 23).
+ * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). */
+#define APPROACH 0.3
+/* The first volumes, made before anything was seen, end over so many ticks. */
+#define BLIND_PERIODS 128U
 
 /* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
  * does not expire in one (PITFALLS 23). Takes off up to a quarter. */
@@ -25,26 +31,39 @@ static EnfBox3f bound_for(EnfDbvIndex *index, uint32_t object, uint32_t period) 
     return enf_world_bound(index->world, object, enf_world_tick(index->world) + (int64_t)period);
 }
 
-/* The longest period whose volume keeps off the seen cells. Where only a speed is known, from the distance; else doubled and
- * bisected over the motion's own bounds, for ever if the whole path keeps off. */
-static uint32_t maximal(EnfDbvIndex *index, uint32_t object) {
-    EnfBox3f whole = bound_for(index, object, index->def.max_period_ticks);
-    if (!enf_dbv_touches_seen(index, whole)) {
-        return index->def.max_period_ticks;
-    }
-    double gap = enf_dbv_distance_to_seen(index, bound_for(index, object, 0));
+/* No cell was seen yet, so nothing says how near the eye will be: short, and no two alike, so that the first seconds pay for it in
+ * instalments. */
+static uint32_t blind(const EnfDbvIndex *index, uint32_t object) {
+    uint32_t hash = (object * UINT32_C(2654435761)) >> 16;
+    return clamp_period(index, (double)(DRAWN_PERIOD + hash % BLIND_PERIODS));
+}
+
+/* May a volume be this near to what is seen, made from an object that is `gap` away? */
+static bool keeps_off(EnfDbvIndex *index, EnfBox3f box, double gap) {
+    return enf_dbv_distance_to_seen(index, box) >= (1.0 - APPROACH) * gap;
+}
+
+/* The longest period whose volume keeps off the seen cells: for ever if the whole path lies in a few cells, none of them seen. Else
+ * doubled and bisected over the motion's own bounds. */
+static uint32_t maximal(EnfDbvIndex *index, uint32_t object, EnfBox3f now) {
+    double gap = enf_dbv_distance_to_seen(index, now);
     if (gap < 0.0) {
         return DRAWN_PERIOD;
     }
+    EnfBox3f whole = bound_for(index, object, index->def.max_period_ticks);
+    double whole_gap = enf_dbv_distance_to_seen(index, whole);
+    if (whole_gap >= (1.0 - APPROACH) * gap || (whole_gap >= 0.0 && enf_dbv_in_few_cells(index, whole))) {
+        return index->def.max_period_ticks;
+    }
     double speed = enf_world_max_speed(index->world, object);
-    uint32_t good = speed < HUGE_VAL ? clamp_period(index, 0.99 * gap / speed * ENF_TICK_RATE) : 1U;
-    if (enf_dbv_touches_seen(index, bound_for(index, object, good))) {
+    uint32_t good = speed < HUGE_VAL ? clamp_period(index, APPROACH * gap / speed * ENF_TICK_RATE) : 1U;
+    if (good > 1 && !keeps_off(index, bound_for(index, object, good), gap)) {
         good = 1; /* the box of a turned object grows by corners: the speed is of its points */
     }
     uint32_t bad = good;
     for (int doublings = 0; doublings < 20; doublings++) {
         bad = clamp_period(index, 2.0 * (double)bad);
-        if (enf_dbv_touches_seen(index, bound_for(index, object, bad))) {
+        if (!keeps_off(index, bound_for(index, object, bad), gap)) {
             break;
         }
         good = bad;
@@ -52,25 +71,25 @@ static uint32_t maximal(EnfDbvIndex *index, uint32_t object) {
             return bad;
         }
     }
-    while (bad - good > good / 8 + 1) { /* an eighth too short costs less than another bound */
+    while (bad - good > good / 4 + 1) { /* a quarter too short costs less than another bound */
         uint32_t middle = good + (bad - good) / 2;
-        if (enf_dbv_touches_seen(index, bound_for(index, object, middle))) {
-            bad = middle;
-        } else {
+        if (keeps_off(index, bound_for(index, object, middle), gap)) {
             good = middle;
+        } else {
+            bad = middle;
         }
     }
     return good;
 }
 
 /* Free objects move by their speed alone, so that their period follows from the distance in one step. */
-static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object) {
-    double gap = enf_dbv_distance_to_seen(index, bound_for(index, object, 0));
+static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object, EnfBox3f now) {
+    double gap = enf_dbv_distance_to_seen(index, now);
     double speed = enf_world_max_speed(index->world, object);
     if (gap < 0.0) {
         return DRAWN_PERIOD;
     }
-    return speed > 0.0 ? clamp_period(index, 0.99 * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
+    return speed > 0.0 ? clamp_period(index, APPROACH * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
 }
 
 static uint32_t adaptive(const EnfDbvIndex *index, uint32_t last, EnfDbvCause cause) {
@@ -126,7 +145,11 @@ static uint32_t choose(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     if (cause == ENF_DBV_DRAWN) {
         return DRAWN_PERIOD < index->def.max_period_ticks ? DRAWN_PERIOD : index->def.max_period_ticks;
     }
-    return enf_world_is_free(index->world, object) ? maximal_free(index, object) : maximal(index, object);
+    if (index->hot_frame == 0) {
+        return blind(index, object);
+    }
+    EnfBox3f now = bound_for(index, object, 0);
+    return enf_world_is_free(index->world, object) ? maximal_free(index, object, now) : maximal(index, object, now);
 }
 
 bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index) {

@@ -13,13 +13,21 @@
 #include <math.h>
 #include <string.h>
 
+/* A node whose longest side is at most so many times that of a volume is not split for it. */
+#define SNUG 1.0
+
 /* ---- boxes of places -------------------------------------------------------------------------------------------- */
 
 /* As enf_world_touches has it: an overlap of more than a grid step. */
-static bool touches(EnfBox3 place, const EnfBox3 *box) {
+static bool touches(const EnfBox3 *place, const EnfBox3 *box) {
     const double step = ENF_GRID_STEP;
-    return box->max.x > place.min.x + step && box->min.x < place.max.x - step && box->max.y > place.min.y + step &&
-           box->min.y < place.max.y - step && box->max.z > place.min.z + step && box->min.z < place.max.z - step;
+    return box->max.x > place->min.x + step && box->min.x < place->max.x - step && box->max.y > place->min.y + step &&
+           box->min.y < place->max.y - step && box->max.z > place->min.z + step && box->min.z < place->max.z - step;
+}
+
+/* fmax is a call, for the sake of what is not a number. */
+static inline double larger(double a, double b) {
+    return a > b ? a : b;
 }
 
 static EnfBox3 node_box(const EnfKdNode *node, const double origin[3]) {
@@ -35,9 +43,19 @@ static EnfBox3 cell_box(const EnfMap *map, uint32_t cell) {
     return box;
 }
 
-static EnfBox3 place_box(const EnfDbvPlaces *places, uint32_t place) {
-    return place < places->cells_first ? node_box(&places->map->cell_nodes[place], places->map->tree_origin)
-                                       : cell_box(places->map, place - places->cells_first);
+/* Of a node of the cells' tree or a cell. */
+static const EnfBox3 *place_box(const EnfDbvPlaces *places, uint32_t place) {
+    return &places->boxes[place];
+}
+
+static void make_boxes(EnfDbvPlaces *places) {
+    const EnfMap *map = places->map;
+    for (uint32_t n = 0; n < places->cells_first; n++) {
+        places->boxes[n] = node_box(&map->cell_nodes[n], map->tree_origin);
+    }
+    for (uint32_t c = 0; c < map->cells_count; c++) {
+        places->boxes[places->cells_first + c] = cell_box(map, c);
+    }
 }
 
 /* ---- the table of places ---------------------------------------------------------------------------------------- */
@@ -72,7 +90,7 @@ static EnfKdTree cells_tree(const EnfMap *map) {
 /* Does a cell that is not under `place` reach into its box? The items of the cells' tree that overlap, against those under it. */
 static bool reached_into(const EnfDbvPlaces *places, uint32_t place) {
     const EnfMap *map = places->map;
-    EnfBox3 box = place_box(places, place);
+    EnfBox3 box = *place_box(places, place);
     uint32_t stack[ENF_KD_MAX_DEPTH + 1];
     uint32_t depth = 0;
     stack[depth++] = 0;
@@ -90,7 +108,7 @@ static bool reached_into(const EnfDbvPlaces *places, uint32_t place) {
         for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
             uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
             bool other = cell != ENF_NONE && places->cells_first + cell != place;
-            if (other && touches(cell_box(map, cell), &box)) {
+            if (other && touches(place_box(places, places->cells_first + cell), &box)) {
                 return true;
             }
         }
@@ -104,8 +122,8 @@ static void mark_shared(EnfDbvPlaces *places) {
     bool outside = map->cells_count > 0 && (map->cells[last].flags & ENF_CELL_OUTSIDE) != 0;
     EnfBox3 beyond = outside ? cell_box(map, last) : enf_box3_empty();
     for (uint32_t place = 0; place < places->nodes_first && map->cell_nodes_count > 0; place++) {
-        EnfBox3 box = place_box(places, place);
-        places->shared[place] = reached_into(places, place) || (outside && touches(beyond, &box));
+        const EnfBox3 *box = place_box(places, place);
+        places->shared[place] = reached_into(places, place) || (outside && touches(&beyond, box));
     }
 }
 
@@ -120,7 +138,8 @@ EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const E
     places->below = enf_alloc(allocator, count, sizeof *places->below);
     places->hot_frame = enf_alloc(allocator, count, sizeof *places->hot_frame);
     places->shared = enf_alloc(allocator, count, sizeof *places->shared);
-    if (!places->parents || !places->heads || !places->below || !places->hot_frame || !places->shared) {
+    places->boxes = enf_alloc(allocator, (size_t)places->nodes_first + 1, sizeof *places->boxes);
+    if (!places->boxes || !places->parents || !places->heads || !places->below || !places->hot_frame || !places->shared) {
         enf_dbv_places_destroy(places, allocator);
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "%u places of volumes", places->count);
     }
@@ -133,6 +152,7 @@ EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const E
         tree_parents(&own, places->nodes_first + map->cells[cell].node_first, places->cells_first + cell, places->parents,
                      NULL);
     }
+    make_boxes(places);
     mark_shared(places);
     return ENF_OK;
 }
@@ -144,6 +164,7 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
     enf_free(allocator, places->below, count, sizeof *places->below);
     enf_free(allocator, places->hot_frame, count, sizeof *places->hot_frame);
     enf_free(allocator, places->shared, count, sizeof *places->shared);
+    enf_free(allocator, places->boxes, (size_t)places->nodes_first + 1, sizeof *places->boxes);
 }
 
 /* ---- links ------------------------------------------------------------------------------------------------------ */
@@ -208,7 +229,7 @@ static uint32_t children(EnfDbvIndex *index, uint32_t place, const EnfBox3 *box,
             continue;
         }
         index->counters.nodes++;
-        if (touches(cell_box(map, cell), box)) {
+        if (touches(place_box(&index->places, index->places.cells_first + cell), box)) {
             if (count == capacity) {
                 return ENF_NONE;
             }
@@ -244,6 +265,14 @@ static bool split(EnfDbvIndex *index, Cover *cover, uint32_t i, const EnfBox3 *b
     return true;
 }
 
+/* Is a node so near to the size of a volume that its parts would hardly cover it tighter? What hangs on fewer places costs less. */
+static bool fits(const EnfDbvIndex *index, uint32_t place, const EnfBox3 *box) {
+    const EnfBox3 *node = place_box(&index->places, place);
+    EnfVec3 a = enf_sub(node->max, node->min);
+    EnfVec3 b = enf_sub(box->max, box->min);
+    return !is_seen(index, place) && larger(larger(a.x, a.y), a.z) <= SNUG * larger(larger(b.x, b.y), b.z);
+}
+
 /* The place to split next: a seen one first, so that sleepers keep off it; else the coarsest (the lowest number of a tree in
  * depth-first order is not deeper than what follows it in its branch). ENF_NONE: the cover is done. */
 static uint32_t next_split(const EnfDbvIndex *index, const Cover *cover) {
@@ -266,8 +295,8 @@ static uint32_t next_split(const EnfDbvIndex *index, const Cover *cover) {
 /* Room between a volume and the box of a place that holds it alone: a grid step, and above the rounding to float of a box relative
  * to a cell, so that whatever passes a window there, the place passes too. */
 static double margin(const EnfBox3 *box) {
-    double size = fmax(fmax(fabs(box->min.x), fabs(box->max.x)), fmax(fabs(box->min.y), fabs(box->max.y)));
-    size = fmax(size, fmax(fabs(box->min.z), fabs(box->max.z)));
+    double size = larger(larger(fabs(box->min.x), fabs(box->max.x)), larger(fabs(box->min.y), fabs(box->max.y)));
+    size = larger(size, larger(fabs(box->min.z), fabs(box->max.z)));
     return ENF_GRID_STEP + size * 0x1p-21;
 }
 
@@ -329,7 +358,7 @@ static uint32_t climb(EnfDbvIndex *index, uint32_t from, const EnfBox3 *box) {
         bool within = outer != place;
         EnfBox3 here = within ? node_box(&places->map->kd_nodes[place - places->nodes_first],
                                          places->map->cells[outer - places->cells_first].origin)
-                              : place_box(places, place);
+                              : *place_box(places, place);
         index->counters.nodes++;
         if (holds(&here, box) && !places->shared[outer]) {
             return place;
@@ -344,7 +373,7 @@ static void cover_outside(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) 
     uint32_t last = map->cells_count - 1;
     bool outside = map->cells_count > 0 && (map->cells[last].flags & ENF_CELL_OUTSIDE) != 0;
     EnfBox3 box = enf_box3_from_f(volume);
-    if (outside && touches(cell_box(map, last), &box)) {
+    if (outside && touches(place_box(&index->places, index->places.cells_first + last), &box)) {
         link_to(index, object, index->places.cells_first + last, volume);
     }
 }
@@ -365,7 +394,7 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t
     uint32_t limit = ENF_DBV_LINKS - index->volumes[object].link_count;
     for (uint32_t i = next_split(index, &cover); i != ENF_NONE; i = next_split(index, &cover)) {
         Cover before = cover;
-        if (!split(index, &cover, i, &box) || cover.count > limit) {
+        if (fits(index, cover.places[i], &box) || !split(index, &cover, i, &box) || cover.count > limit) {
             cover = before;
             cover.final[i] = true;
         }
@@ -385,19 +414,29 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t
 
 /* ---- seen cells ------------------------------------------------------------------------------------------------- */
 
-bool enf_dbv_touches_seen(EnfDbvIndex *index, EnfBox3f volume) {
-    return enf_dbv_distance_to_seen(index, volume) < 0.0;
+bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f volume) {
+    const EnfMap *map = index->map;
+    EnfBox3 box = enf_box3_from_f(volume);
+    Cover cover = {{0}, map->cell_nodes_count > 0 ? 1U : 0U, {false}};
+    for (uint32_t i = 0; i < cover.count; i++) {
+        while (i < cover.count && cover.places[i] < index->places.cells_first) {
+            if (!split(index, &cover, i, &box)) {
+                return false;
+            }
+        }
+    }
+    return true;
 }
 
-/* The distance between two boxes; below 0 where they touch as enf_world_touches has it. */
-static double gap(EnfBox3 place, const EnfBox3 *box) {
+/* The squared distance between two boxes; below 0 where they touch as enf_world_touches has it. */
+static double gap(const EnfBox3 *place, const EnfBox3 *box) {
     if (touches(place, box)) {
         return -1.0;
     }
-    EnfVec3 apart = enf_v3(fmax(fmax(place.min.x - box->max.x, box->min.x - place.max.x), 0.0),
-                           fmax(fmax(place.min.y - box->max.y, box->min.y - place.max.y), 0.0),
-                           fmax(fmax(place.min.z - box->max.z, box->min.z - place.max.z), 0.0));
-    return enf_length(apart);
+    double x = larger(larger(place->min.x - box->max.x, box->min.x - place->max.x), 0.0);
+    double y = larger(larger(place->min.y - box->max.y, box->min.y - place->max.y), 0.0);
+    double z = larger(larger(place->min.z - box->max.z, box->min.z - place->max.z), 0.0);
+    return x * x + y * y + z * z;
 }
 
 /* Only places that were seen are looked at, nearest branches first: a handful of steps. */
@@ -428,9 +467,10 @@ double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f volume) {
         for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
             uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
             if (cell != ENF_NONE && is_seen(index, index->places.cells_first + cell)) {
-                nearest = fmin(nearest, gap(cell_box(map, cell), &box));
+                double here = gap(place_box(&index->places, index->places.cells_first + cell), &box);
+                nearest = here < nearest ? here : nearest;
             }
         }
     }
-    return nearest;
+    return nearest > 0.0 ? sqrt(nearest) : nearest;
 }

@@ -126,11 +126,20 @@ static EnfBox3 range_over(const EnfPathMotion *path, const EnfTrack *track, EnfV
 
 /* ---- extents ---------------------------------------------------------------------------------------------------- */
 
+/* fmin and fmax are calls, for the sake of what is not a number. */
+static inline double smaller(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double larger(double a, double b) {
+    return a > b ? a : b;
+}
+
 /* [a0,a1] × [b0,b1]. */
 static void multiply(double a0, double a1, double b0, double b1, double *low, double *high) {
     const double p[4] = {a0 * b0, a0 * b1, a1 * b0, a1 * b1};
-    *low = fmin(fmin(p[0], p[1]), fmin(p[2], p[3]));
-    *high = fmax(fmax(p[0], p[1]), fmax(p[2], p[3]));
+    *low = smaller(smaller(p[0], p[1]), smaller(p[2], p[3]));
+    *high = larger(larger(p[0], p[1]), larger(p[2], p[3]));
 }
 
 /* The local box under every scale of an interval. */
@@ -144,6 +153,9 @@ static EnfBox3 scaled_box(const EnfBox3 *local, const EnfBox3 *scale) {
 
 /* A turned box: all eight corners. */
 static EnfBox3 turned_box(const EnfBox3 *box, EnfQuat rotation) {
+    if (rotation.x == 0.0 && rotation.y == 0.0 && rotation.z == 0.0) { /* what the corners would give */
+        return *box;
+    }
     EnfBox3 out = enf_box3_empty();
     for (int i = 0; i < 8; i++) {
         EnfVec3 corner = enf_v3(i & 1 ? box->max.x : box->min.x, i & 2 ? box->max.y : box->min.y,
@@ -154,8 +166,8 @@ static EnfBox3 turned_box(const EnfBox3 *box, EnfQuat rotation) {
 }
 
 static double farthest(const EnfBox3 *box) {
-    EnfVec3 reach = enf_v3(fmax(fabs(box->min.x), fabs(box->max.x)), fmax(fabs(box->min.y), fabs(box->max.y)),
-                           fmax(fabs(box->min.z), fabs(box->max.z)));
+    EnfVec3 reach = enf_v3(larger(fabs(box->min.x), fabs(box->max.x)), larger(fabs(box->min.y), fabs(box->max.y)),
+                           larger(fabs(box->min.z), fabs(box->max.z)));
     return enf_length(reach);
 }
 
