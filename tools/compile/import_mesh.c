@@ -219,7 +219,7 @@ static bool is_drawable(MeshReader *reader, const EnfGltfPrimitive *from) {
 }
 
 static EnfResult read_primitive(MeshReader *reader, const EnfGltfPrimitive *from, EnfSourcePrimitive *to) {
-    EnfImportRange range;
+    EnfImportRange range = {0, 0}; /* filled by read_indices; said here for compilers that cannot see it */
     to->material = from->material == ENF_NONE ? reader->import->default_material : from->material;
     EnfResult result = read_triangles(reader, from, to, &range);
     if (result == ENF_OK) {
