@@ -9,8 +9,14 @@ from shell import Shell, centre_of
 
 DADO_HEIGHT = 1.0
 DADOES = {"paper": "wainscot", "marble": "marble_dark", "wood": "wood_panel", "plaster": "plaster_warm"}
-CEILINGS = {"barrel": "plaster_warm", "cove": "plaster", "dome": "dome_blue", "flat": "plaster", "coffer": "plaster",
-            "oculus": "plaster"}
+CEILINGS = {
+    "barrel": "plaster_warm",
+    "cove": "plaster",
+    "dome": "dome_blue",
+    "flat": "plaster",
+    "coffer": "plaster",
+    "oculus": "plaster",
+}
 ROOF_REACH, ROOF_TOP, SKY_TOP = 4.0, 12.5, 34.0
 
 
@@ -118,7 +124,8 @@ def _sky_wall(shell, start, end, columns=8, rows=6):
 def _ramp(shell, room):
     """A passage of rectangular section along a bent floor: floor, ceiling, two sides; open at the leaning end."""
     x0, x1 = room.footprint[0][0], room.footprint[1][0]
-    for (low0, high0), (low1, high1) in zip(room.section, room.section[1:]):
+    stations = _stations(room.section)
+    for (low0, high0), (low1, high1) in zip(stations, stations[1:]):
         shell.add([(x0, *low1), (x1, *low1), (x1, *low0), (x0, *low0)], room.ground)
         shell.add([(x0, *high0), (x1, *high0), (x1, *high1), (x0, *high1)], room.wall)
         shell.add([(x1, *low0), (x1, *low1), (x1, *high1), (x1, *high0)], room.wall)
@@ -127,6 +134,15 @@ def _ramp(shell, room):
         else:
             shell.wall(room.walls[0], low0[1], high0[1], [(0.0, room.wall)])
     _ramp_end(shell, room, x0, x1)
+
+
+def _stations(section, longest=1.5):
+    """The section's stations with more between them where the floor slopes, for the sake of light at vertices."""
+    result = [section[0]]
+    for (low0, high0), (low1, high1) in zip(section, section[1:]):
+        count = 1 if low0[1] == low1[1] else round(abs(low1[0] - low0[0]) / longest)
+        result += [(lerp(low0, low1, k / count), lerp(high0, high1, k / count)) for k in range(1, count + 1)]
+    return result
 
 
 def _ramp_end(shell, room, x0, x1):

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Checks the exported palace: assets/palace/check.py [palace.glb] [tour.csv].  Plain Python, no Blender.
 
-Rooms enough, triangles enough, a file small enough; every piece inside its room and off the walk; every portal planar, convex and facing out of its room; every cell
-closed: each edge of shell and portals, on a grid of 1/4096 m, is run through as often one way as the other.
+Rooms enough, triangles enough, a file small enough; every piece inside its room and off the walk; every portal planar,
+convex and facing out of its room; every cell closed: each edge of shell and portals, on a grid of 1/4096 m, is run
+through as often one way as the other.
 """
 
 import csv
@@ -41,8 +42,10 @@ def main():
     problems += check_lights(glb, rooms) + check_spawn(glb) + check_tour(tour)
     for problem in problems:
         print("FAIL:", problem)
-    print(f"{len(rooms)} rooms, {len(portals)} portals, {instanced_triangles(glb)} triangles, {glb.size} bytes, "
-          f"{len(problems)} problems")
+    print(
+        f"{len(rooms)} rooms, {len(portals)} portals, {instanced_triangles(glb)} triangles, {glb.size} bytes, "
+        f"{len(problems)} problems"
+    )
     return 1 if problems else 0
 
 
@@ -74,8 +77,11 @@ def _border(triangles):
 
 
 def instanced_triangles(glb):
-    return sum(glb.triangle_count(node["mesh"]) for node in glb.nodes
-               if "mesh" in node and not node["name"].endswith("-portal"))
+    return sum(
+        glb.triangle_count(node["mesh"])
+        for node in glb.nodes
+        if "mesh" in node and not node["name"].endswith("-portal")
+    )
 
 
 def check_sizes(glb, rooms):
@@ -113,7 +119,8 @@ def convex(corners, normal):
     count = len(corners)
     return all(
         dot(cross(sub(corners[(i + 1) % count], corners[i]), sub(corners[(i + 2) % count], corners[i])), normal) > 1e-7
-        for i in range(count))
+        for i in range(count)
+    )
 
 
 def shell_node(glb, room):
@@ -175,7 +182,7 @@ def check_pieces(glb, tour):
 
 
 def pieces(glb):
-    """(name, corners in the blender-like frame x east, y north, z up) of every mesh that is no shell, moulding or portal."""
+    """(name, corners: x east, y north, z up) of every mesh that is no shell, moulding or portal."""
     for i, node in enumerate(glb.nodes):
         if "mesh" in node and not re.search(r"(_shell|_trim|-portal)$", node["name"]):
             corners = {p for triangle in glb.triangles_of(node["mesh"]) for p in triangle}

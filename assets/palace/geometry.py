@@ -110,9 +110,7 @@ def inset(polygon, distance):
 
 def depth_inside(polygon, point):
     """Distance from the nearest side line of a convex polygon; negative outside."""
-    return min(
-        dot(sub(point, p), left_normal(unit(sub(q, p)))) for p, q in zip(polygon, polygon[1:] + polygon[:1])
-    )
+    return min(dot(sub(point, p), left_normal(unit(sub(q, p)))) for p, q in zip(polygon, polygon[1:] + polygon[:1]))
 
 
 def clip_half_plane(polygon, origin, normal):

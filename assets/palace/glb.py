@@ -15,8 +15,8 @@ class Glb:
         json_size = struct.unpack_from("<I", data, 12)[0]
         self.size = size
         self.kept = {}
-        self.json = json.loads(data[20:20 + json_size])
-        self.binary = data[20 + json_size + 8:]
+        self.json = json.loads(data[20 : 20 + json_size])
+        self.binary = data[20 + json_size + 8 :]
         self.nodes = self.json["nodes"]
         self.parents = {child: i for i, node in enumerate(self.nodes) for child in node.get("children", ())}
 
@@ -28,7 +28,9 @@ class Glb:
         width = WIDTHS[accessor["type"]]
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         stride = view.get("byteStride", size * width)
-        return [struct.unpack_from(f"<{width}{letter}", self.binary, start + i * stride) for i in range(accessor["count"])]
+        return [
+            struct.unpack_from(f"<{width}{letter}", self.binary, start + i * stride) for i in range(accessor["count"])
+        ]
 
     def triangles(self, mesh):
         """Corner positions of every triangle of a mesh."""
@@ -36,7 +38,7 @@ class Glb:
             points = self.accessor(primitive["attributes"]["POSITION"])
             indices = [row[0] for row in self.accessor(primitive["indices"])]
             for i in range(0, len(indices), 3):
-                yield tuple(points[j] for j in indices[i:i + 3])
+                yield tuple(points[j] for j in indices[i : i + 3])
 
     def triangles_of(self, mesh):
         """The same as a list, kept for meshes that many nodes share."""

@@ -33,7 +33,9 @@ class Mesh:
             for c in range(width if closed else width - 1):
                 d = (c + 1) % width
                 a, b = first + r * width, first + (r + 1) * width
-                corners = _without_doubles(self.points, [(a + c, c, r), (a + d, c + 1, r), (b + d, c + 1, r + 1), (b + c, c, r + 1)])
+                corners = _without_doubles(
+                    self.points, [(a + c, c, r), (a + d, c + 1, r), (b + d, c + 1, r + 1), (b + c, c, r + 1)]
+                )
                 if len(corners) >= 3:
                     uvs = [(across[u], upward[v]) for _, u, v in corners]
                     self._corner_face([i for i, _, _ in corners], material, uvs, smooth)
@@ -101,7 +103,8 @@ def box(low, high, material, skip=""):
         "s": [(x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)],
         "n": [(x1, y1, z0), (x0, y1, z0), (x0, y1, z1), (x1, y1, z1)],
         "w": [(x0, y1, z0), (x0, y0, z0), (x0, y0, z1), (x0, y1, z1)],
-        "e": [(x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)]}
+        "e": [(x1, y0, z0), (x1, y1, z0), (x1, y1, z1), (x1, y0, z1)],
+    }
     mesh = Mesh()
     for name, points in sides.items():
         if name not in skip:
@@ -120,8 +123,16 @@ def lathe(profile, material, sides=12, smooth=True, turn=0.0):
     """Turned work: (radius, height) from the bottom up, spun about z.  A radius of 0 closes an end."""
     rows = []
     for radius, height in profile:
-        rows.append([(radius * math.cos(turn + 2 * math.pi * i / sides), radius * math.sin(turn + 2 * math.pi * i / sides), height)
-                     for i in range(sides)])
+        rows.append(
+            [
+                (
+                    radius * math.cos(turn + 2 * math.pi * i / sides),
+                    radius * math.sin(turn + 2 * math.pi * i / sides),
+                    height,
+                )
+                for i in range(sides)
+            ]
+        )
     mesh = Mesh()
     mesh.grid(rows, material, closed=True, smooth=smooth)
     return mesh
@@ -150,8 +161,12 @@ def tube(path, radius, material, sides=6, smooth=True):
         side = cross(ahead, (0.0, 0.0, 1.0) if abs(ahead[2]) < 0.9 else (1.0, 0.0, 0.0))
         side = unit(side)
         other = cross(side, ahead)
-        rows.append([add(centre, add(scale(side, radii[i] * math.cos(a)), scale(other, -radii[i] * math.sin(a))))
-                     for a in (2 * math.pi * k / sides for k in range(sides))])
+        rows.append(
+            [
+                add(centre, add(scale(side, radii[i] * math.cos(a)), scale(other, -radii[i] * math.sin(a))))
+                for a in (2 * math.pi * k / sides for k in range(sides))
+            ]
+        )
     mesh = Mesh()
     mesh.grid(rows, material, closed=True, smooth=smooth)
     if dot(_outward(mesh), (1, 1, 1)) < 0:
@@ -175,17 +190,3 @@ def _sum(points):
     for point in points:
         total = add(total, point)
     return total
-
-
-def sweep(path, profile, material, closed=False, smooth=False):
-    """A moulding along a level or upright path of (point, outward, up) frames; profile points are (out, up).
-
-    The sheet looks away from the profile's left side; ends stay open.
-    """
-    mesh = Mesh()
-    rows = [[add(point, add(scale(outward, o), scale(up, u))) for point, outward, up in path] for o, u in profile]
-    for low, high in zip(rows, rows[1:]):
-        strip = Mesh()
-        strip.grid([low, high], material, closed=closed, smooth=smooth)
-        mesh.append(strip)
-    return mesh

@@ -20,6 +20,10 @@ class Kind:
     frame: str = "wood_white"
     tunnel: str = "wood_white"
 
+    @property
+    def glazed(self):
+        return 0.0 < self.sill
+
 
 DOOR = Kind("rect", 1.5, 2.75)
 NARROW = Kind("rect", 1.0, 2.25)
@@ -69,89 +73,195 @@ def _windows(names, places, kind=WINDOW):
     return [Opening(name, "Courtyard", at, kind) for name in names for at in places]
 
 
-ENFILADE = ["PorcelainCabinet", "TapestryRoom", "AudienceChamber", "GreenSalon", "RedSalon", "MarbleSaloon",
-            "MusicRoom", "BlueSalon", "DiningRoom", "HuntingRoom", "MapCabinet"]
-UPPER_ENFILADE = ["QueensCloset", "QueensBedchamber", "DressingRoom", "YellowBedchamber", "SilkRoom", "UpperSaloon",
-                  "RoseBedchamber", "BlueBedchamber", "PrivyDiningRoom", "KingsBedchamber", "KingsCloset"]
+ENFILADE = [
+    "PorcelainCabinet",
+    "TapestryRoom",
+    "AudienceChamber",
+    "GreenSalon",
+    "RedSalon",
+    "MarbleSaloon",
+    "MusicRoom",
+    "BlueSalon",
+    "DiningRoom",
+    "HuntingRoom",
+    "MapCabinet",
+]
+UPPER_ENFILADE = [
+    "QueensCloset",
+    "QueensBedchamber",
+    "DressingRoom",
+    "YellowBedchamber",
+    "SilkRoom",
+    "UpperSaloon",
+    "RoseBedchamber",
+    "BlueBedchamber",
+    "PrivyDiningRoom",
+    "KingsBedchamber",
+    "KingsCloset",
+]
 
 
 def _ground():
     doors = _chain(ENFILADE, 11.5)
-    doors += _chain(["CornerCabinet", "GuardRoom", "Armoury", "CloakRoom", "EntranceHall", "GrandStaircase",
-                     "Antechamber", "PetitionRoom", "KneeRoom"], -11.5)
-    doors += _chain(["Kitchen", "Scullery", "ServantsHall", "Vestibule", "CellarLobby", "MunimentRoom", "ClockRoom"], -18.5)
+    doors += _chain(
+        [
+            "CornerCabinet",
+            "GuardRoom",
+            "Armoury",
+            "CloakRoom",
+            "EntranceHall",
+            "GrandStaircase",
+            "Antechamber",
+            "PetitionRoom",
+            "KneeRoom",
+        ],
+        -11.5,
+    )
+    doors += _chain(
+        ["Kitchen", "Scullery", "ServantsHall", "Vestibule", "CellarLobby", "MunimentRoom", "ClockRoom"], -18.5
+    )
     doors += _chain(["TeaRoom", "WritingRoom", "CardRoom"], -14.0)
     doors += _chain(["TapestryRoom", "BilliardRoom", "SmokingRoom", "GuardRoom", "Kitchen"], -24.0)
     doors += _chain(["PorcelainCabinet", "PortraitGallery", "CornerCabinet"], -30.75)
-    doors += [Opening("AudienceChamber", "TeaRoom", -18.5), Opening("CardRoom", "Armoury", -18.5),
-              Opening("TeaRoom", "BilliardRoom", 6.0), Opening("WritingRoom", "SmokingRoom", -1.5),
-              Opening("PortraitGallery", "BilliardRoom", 3.0), Opening("PortraitGallery", "SmokingRoom", -5.0),
-              Opening("EntranceHall", "Vestibule", 0.0, GATE), Opening("CloakRoom", "ServantsHall", -7.0, NARROW),
-              Opening("PorcelainCabinet", "Treasury", -30.75), Opening("Treasury", "Sacristy", 20.5, NARROW),
-              Opening("Sacristy", "Chapel", 19.0), Opening("AudienceChamber", "Sacristy", -21.5, NARROW),
-              Opening("GreenSalon", "Chapel", -13.5), Opening("MarbleSaloon", "Rotunda", 0.0, GATE),
-              Opening("Rotunda", "Chapel", 23.5), Opening("Rotunda", "Library", 23.5),
-              Opening("BlueSalon", "Library", 13.5), Opening("Library", "ReadingCabinet", 20.5),
-              Opening("ReadingCabinet", "NorthStaircase", 18.5), Opening("MapCabinet", "NorthStaircase", 30.75)]
-    doors += [Opening("BlueSalon", "GreatHall", 14.5), Opening("DiningRoom", "GreatHall", 20.0),
-              Opening("Antechamber", "GreatHall", 15.75), Opening("PetitionRoom", "GreatHall", 22.5),
-              Opening("HuntingRoom", "EastAisle", 27.0), Opening("EastAisle", "KneeRoom", 28.0)]
+    doors += [
+        Opening("AudienceChamber", "TeaRoom", -18.5),
+        Opening("CardRoom", "Armoury", -18.5),
+        Opening("TeaRoom", "BilliardRoom", 6.0),
+        Opening("WritingRoom", "SmokingRoom", -1.5),
+        Opening("PortraitGallery", "BilliardRoom", 3.0),
+        Opening("PortraitGallery", "SmokingRoom", -5.0),
+        Opening("EntranceHall", "Vestibule", 0.0, GATE),
+        Opening("CloakRoom", "ServantsHall", -7.0, NARROW),
+        Opening("PorcelainCabinet", "Treasury", -30.75),
+        Opening("Treasury", "Sacristy", 20.5, NARROW),
+        Opening("Sacristy", "Chapel", 19.0),
+        Opening("AudienceChamber", "Sacristy", -21.5, NARROW),
+        Opening("GreenSalon", "Chapel", -13.5),
+        Opening("MarbleSaloon", "Rotunda", 0.0, GATE),
+        Opening("Rotunda", "Chapel", 23.5),
+        Opening("Rotunda", "Library", 23.5),
+        Opening("BlueSalon", "Library", 13.5),
+        Opening("Library", "ReadingCabinet", 20.5),
+        Opening("ReadingCabinet", "NorthStaircase", 18.5),
+        Opening("MapCabinet", "NorthStaircase", 30.75),
+    ]
+    doors += [
+        Opening("BlueSalon", "GreatHall", 14.5),
+        Opening("DiningRoom", "GreatHall", 20.0),
+        Opening("Antechamber", "GreatHall", 15.75),
+        Opening("PetitionRoom", "GreatHall", 22.5),
+        Opening("HuntingRoom", "EastAisle", 27.0),
+        Opening("EastAisle", "KneeRoom", 28.0),
+    ]
     doors += [Opening("EastAisle", "GreatHall", y, ARCADE) for y in (-7.0, -3.5, 0.0, 3.5, 7.0)]
-    doors += [Opening("KneeRoom", "WingLobby"), Opening("WingLobby", "SculptureGallery"),
-              Opening("SculptureGallery", "Orangery", None, GATE), Opening("SculptureGallery", "PainterStudio"),
-              Opening("SculptureGallery", "PlasterWorkshop"), Opening("PainterStudio", "PlasterWorkshop", None, NARROW),
-              Opening("PlasterWorkshop", "BathHouse", None, NARROW), Opening("Orangery", "BathHouse")]
+    doors += [
+        Opening("KneeRoom", "WingLobby"),
+        Opening("WingLobby", "SculptureGallery"),
+        Opening("SculptureGallery", "Orangery", None, GATE),
+        Opening("SculptureGallery", "PainterStudio"),
+        Opening("SculptureGallery", "PlasterWorkshop"),
+        Opening("PainterStudio", "PlasterWorkshop", None, NARROW),
+        Opening("PlasterWorkshop", "BathHouse", None, NARROW),
+        Opening("Orangery", "BathHouse"),
+    ]
     return doors
 
 
 def _first():
     doors = _chain(UPPER_ENFILADE, 11.5)
-    doors += _chain(["CornerStudy", "StateBedchamber", "PrivyChamber", "CouncilRoom", "UpperHall", "UpperStaircase",
-                     "MinstrelsGallery"], -11.0)
+    doors += _chain(
+        [
+            "CornerStudy",
+            "StateBedchamber",
+            "PrivyChamber",
+            "CouncilRoom",
+            "UpperHall",
+            "UpperStaircase",
+            "MinstrelsGallery",
+        ],
+        -11.0,
+    )
     doors += _chain(["MaidsRoom", "SewingRoom", "FootmensRoom", "FlagRoom", "PrivateStudy", "BallRoom"], -18.5)
     doors += _chain(["Schoolroom", "Nursery", "GovernessRoom"], -14.0)
     doors += _chain(["QueensBedchamber", "GuestChamber", "GreenChamber", "StateBedchamber", "MaidsRoom"], -24.0)
     doors += _chain(["QueensCloset", "LongGallery", "CornerStudy"], -30.75)
-    doors += [Opening("DressingRoom", "Schoolroom", -18.5), Opening("GovernessRoom", "PrivyChamber", -18.5),
-              Opening("Schoolroom", "GuestChamber", 6.0, NARROW), Opening("Nursery", "GreenChamber", -1.5, NARROW),
-              Opening("LongGallery", "GuestChamber", 3.0), Opening("LongGallery", "GreenChamber", -5.0),
-              Opening("UpperHall", "FlagRoom", 0.0), Opening("CouncilRoom", "FootmensRoom", -7.0, NARROW),
-              Opening("QueensCloset", "RelicRoom", -30.75), Opening("RelicRoom", "Vestiary", 20.5, NARROW),
-              Opening("DressingRoom", "Vestiary", -21.5, NARROW), Opening("UpperSaloon", "Belvedere", 0.0, GATE),
-              Opening("YellowBedchamber", "Chapel", -13.5, UPPER_WINDOW), Opening("Belvedere", "Chapel", 23.5, ROUND_WINDOW),
-              Opening("Belvedere", "UpperLibrary", 23.5), Opening("BlueBedchamber", "UpperLibrary", 13.5, NARROW),
-              Opening("UpperLibrary", "GlobeRoom", 20.5), Opening("GlobeRoom", "NorthLanding", 18.5),
-              Opening("KingsCloset", "NorthLanding", 30.75), Opening("KingsBedchamber", "HallGallery", 27.0),
-              Opening("HallGallery", "UpperKneeRoom", 28.0), Opening("MinstrelsGallery", "BallRoom", 19.0),
-              Opening("MinstrelsGallery", "UpperKneeRoom", -11.0), Opening("UpperStaircase", "PrivateStudy", 11.25, NARROW)]
+    doors += [
+        Opening("DressingRoom", "Schoolroom", -18.5),
+        Opening("GovernessRoom", "PrivyChamber", -18.5),
+        Opening("Schoolroom", "GuestChamber", 6.0, NARROW),
+        Opening("Nursery", "GreenChamber", -1.5, NARROW),
+        Opening("LongGallery", "GuestChamber", 3.0),
+        Opening("LongGallery", "GreenChamber", -5.0),
+        Opening("UpperHall", "FlagRoom", 0.0),
+        Opening("CouncilRoom", "FootmensRoom", -7.0, NARROW),
+        Opening("QueensCloset", "RelicRoom", -30.75),
+        Opening("RelicRoom", "Vestiary", 20.5, NARROW),
+        Opening("DressingRoom", "Vestiary", -21.5, NARROW),
+        Opening("UpperSaloon", "Belvedere", 0.0, GATE),
+        Opening("YellowBedchamber", "Chapel", -13.5, UPPER_WINDOW),
+        Opening("Belvedere", "Chapel", 23.5, ROUND_WINDOW),
+        Opening("Belvedere", "UpperLibrary", 23.5),
+        Opening("BlueBedchamber", "UpperLibrary", 13.5, NARROW),
+        Opening("UpperLibrary", "GlobeRoom", 20.5),
+        Opening("GlobeRoom", "NorthLanding", 18.5),
+        Opening("KingsCloset", "NorthLanding", 30.75),
+        Opening("KingsBedchamber", "HallGallery", 27.0),
+        Opening("HallGallery", "UpperKneeRoom", 28.0),
+        Opening("MinstrelsGallery", "BallRoom", 19.0),
+        Opening("MinstrelsGallery", "UpperKneeRoom", -11.0),
+        Opening("UpperStaircase", "PrivateStudy", 11.25, NARROW),
+    ]
     doors += [Opening("HallGallery", "GreatHall", y, BALCONY) for y in (-7.0, -3.5, 0.0, 3.5, 7.0)]
     doors += [Opening("MinstrelsGallery", "GreatHall", x, BALCONY) for x in (15.5, 19.0, 22.5)]
-    doors += [Opening("BlueBedchamber", "GreatHall", 14.5, UPPER_WINDOW), Opening("PrivyDiningRoom", "GreatHall", 20.0, UPPER_WINDOW)]
-    doors += [Opening("UpperKneeRoom", "UpperWingLobby"), Opening("UpperWingLobby", "PictureGallery"),
-              Opening("PictureGallery", "WinterGarden", None, ARCH)]
+    doors += [
+        Opening("BlueBedchamber", "GreatHall", 14.5, UPPER_WINDOW),
+        Opening("PrivyDiningRoom", "GreatHall", 20.0, UPPER_WINDOW),
+    ]
+    doors += [
+        Opening("UpperKneeRoom", "UpperWingLobby"),
+        Opening("UpperWingLobby", "PictureGallery"),
+        Opening("PictureGallery", "WinterGarden", None, ARCH),
+    ]
     return doors
 
 
 def _cellar():
     doors = _chain(["Dungeon", "Granary", "BarrelVault"], -13.0, VAULT_ARCH)
-    doors += _chain(["CoalCellar", "ColdStore", "WineCellar", "Undercroft", "CellarStair", "CheeseCellar", "BeerCellar"],
-                    -18.5, VAULT_ARCH)
-    doors += [Opening("Dungeon", "CoalCellar", -24.0, VAULT_ARCH), Opening("BarrelVault", "WineCellar", -8.5, VAULT_ARCH),
-              Opening("BarrelVault", "Undercroft", -13.0, VAULT_ARCH), Opening("Undercroft", "Buttery", -13.0, VAULT_ARCH),
-              Opening("Undercroft", "CryptPassage", 0.0, VAULT_ARCH), Opening("CryptPassage", "Crypt", 0.0, VAULT_ARCH),
-              Opening("CryptPassage", "Cistern", 0.0, VAULT_ARCH),
-              Opening("ClockRoom", "BarrelRampHead", -18.0, NARROW), Opening("BeerCellar", "BarrelRampFoot", -28.0, VAULT_ARCH)]
+    doors += _chain(
+        ["CoalCellar", "ColdStore", "WineCellar", "Undercroft", "CellarStair", "CheeseCellar", "BeerCellar"],
+        -18.5,
+        VAULT_ARCH,
+    )
+    doors += [
+        Opening("Dungeon", "CoalCellar", -24.0, VAULT_ARCH),
+        Opening("BarrelVault", "WineCellar", -8.5, VAULT_ARCH),
+        Opening("BarrelVault", "Undercroft", -13.0, VAULT_ARCH),
+        Opening("Undercroft", "Buttery", -13.0, VAULT_ARCH),
+        Opening("Undercroft", "CryptPassage", 0.0, VAULT_ARCH),
+        Opening("CryptPassage", "Crypt", 0.0, VAULT_ARCH),
+        Opening("CryptPassage", "Cistern", 0.0, VAULT_ARCH),
+        Opening("ClockRoom", "BarrelRampHead", -18.0, NARROW),
+        Opening("BeerCellar", "BarrelRampFoot", -28.0, VAULT_ARCH),
+    ]
     return doors
 
 
 def _courtyard():
-    openings = [Opening("MarbleSaloon", "Courtyard", 0.0, GATE), Opening("EntranceHall", "Courtyard", 0.0, GATE),
-                Opening("WritingRoom", "Courtyard", 0.0)]
-    for lower, upper, places in (("RedSalon", "SilkRoom", (-8.5, -5.5)), ("MusicRoom", "RoseBedchamber", (5.5, 8.5)),
-                                 ("MarbleSaloon", "UpperSaloon", (-2.5, 2.5)), ("EntranceHall", "UpperHall", (-3.0, 3.0)),
-                                 ("CloakRoom", "CouncilRoom", (-10.5, -8.5, -6.5)), ("TeaRoom", "Schoolroom", (4.75, 7.5)),
-                                 ("GrandStaircase", "UpperStaircase", (6.5, 8.5, 10.5)),
-                                 ("CardRoom", "GovernessRoom", (-7.5, -4.75))):
+    openings = [
+        Opening("MarbleSaloon", "Courtyard", 0.0, GATE),
+        Opening("EntranceHall", "Courtyard", 0.0, GATE),
+        Opening("WritingRoom", "Courtyard", 0.0),
+    ]
+    for lower, upper, places in (
+        ("RedSalon", "SilkRoom", (-8.5, -5.5)),
+        ("MusicRoom", "RoseBedchamber", (5.5, 8.5)),
+        ("MarbleSaloon", "UpperSaloon", (-2.5, 2.5)),
+        ("EntranceHall", "UpperHall", (-3.0, 3.0)),
+        ("CloakRoom", "CouncilRoom", (-10.5, -8.5, -6.5)),
+        ("TeaRoom", "Schoolroom", (4.75, 7.5)),
+        ("GrandStaircase", "UpperStaircase", (6.5, 8.5, 10.5)),
+        ("CardRoom", "GovernessRoom", (-7.5, -4.75)),
+    ):
         openings += _windows([lower], places) + _windows([upper], places, UPPER_WINDOW)
     openings += _windows(["UpperSaloon", "UpperHall"], (0.0,), UPPER_WINDOW)
     openings += _windows(["WritingRoom"], (-1.875, 1.875)) + _windows(["Nursery"], (-1.5, 1.5), UPPER_WINDOW)
@@ -169,7 +279,8 @@ WELLS = [
     Well("NorthStaircase", "NorthLanding", tuple(rectangle(26.75, 20.25, 31.75, 23.75))),
     Well("CellarStair", "CellarLobby", tuple(rectangle(5.25, -23.75, 10.375, -20.25))),
     Well("Library", "UpperLibrary", tuple(rectangle(11.0, 19.75, 16.0, 23.25))),
-    Well("Rotunda", "Belvedere", tuple(regular((0.0, 23.5), 2.25, 16)))]
+    Well("Rotunda", "Belvedere", tuple(regular((0.0, 23.5), 2.25, 16))),
+]
 LIP = 1.0 / 32.0  # a well's portal lies this far under the upper floor
 
 
@@ -243,7 +354,7 @@ def cut(opening, rooms):
     for u, height in outline(kind):
         x, y = add(add(wall.start, scale(wall.direction, middle + u)), away)
         points.append(snap_point((x, y, base + height)))
-    wall.holes.append(Hole(points, gap / 2, kind.tunnel))
+    wall.holes.append(Hole(points, gap / 2, kind.tunnel, glazed=kind.glazed))
     other.holes.append(Hole(points, gap / 2, kind.tunnel))
     centre = add(add(wall.start, scale(wall.direction, middle)), away)
     return Portal(source.name, target.name, points, kind, (*centre, base), scale(wall.inward, -1.0))

@@ -27,7 +27,7 @@ def parse_arguments():
     parser.add_argument("--output", required=True, help="the .glb to write")
     parser.add_argument("--tour", help="the .csv of the walk; by default tour.csv in maps/palace")
     parser.add_argument("--blend", help="also save the Blender file here")
-    return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+    return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
 
 
 def build_shells(scene, rooms, portals):

@@ -112,7 +112,7 @@ def paintings():
     """The atlas: rows of landscapes, portraits, seas with still lifes, portraits."""
     painters = [landscape] * 4 + [portrait] * 4 + [seascape, still_life] * 2 + [portrait, landscape] * 2
     tiles = [painter(256, 1000 + 31 * i) for i, painter in enumerate(painters)]
-    rows = [np.concatenate(tiles[r * 4:r * 4 + 4], axis=1) for r in range(4)]
+    rows = [np.concatenate(tiles[r * 4 : r * 4 + 4], axis=1) for r in range(4)]
     return np.concatenate(rows, axis=0)
 
 
@@ -128,12 +128,39 @@ def tapestry():
     for leg in (0.39, 0.44, 0.57, 0.61):
         image = mix(image, rgb("cfc4a8"), ((np.abs(x - leg) < 0.012) & (y < 0.44) & (y > 0.24)).astype(float))
     edge = np.minimum.reduce([x, 1 - x, y, 1 - y])
-    flowers = (np.sin(2 * np.pi * x * 16) * np.sin(2 * np.pi * y * 16) > 0.35)
+    flowers = np.sin(2 * np.pi * x * 16) * np.sin(2 * np.pi * y * 16) > 0.35
     border = np.where(flowers[..., None], rgb("c98a5a"), rgb("6a1f22"))
     image = np.where((edge < 0.09)[..., None], border, image)
     image = np.where(((edge > 0.09) & (edge < 0.105))[..., None], rgb("c9a850"), image)
     weave = 1 + 0.05 * np.sin(2 * np.pi * y * 128)
     return np.clip(image * weave[..., None], 0, 1)
+
+
+def arms():
+    """A hanging with a coat of arms: quartered shield under a crown, on a blue ground sown with lozenges."""
+    size = 256
+    x, y = coordinates(size)
+    fx, fy = np.abs(x - 0.5), y - 0.48
+    sown = np.abs(x * 14 % 1.0 - 0.5) + np.abs((y * 14 + 0.5 * (np.floor(x * 14) % 2)) % 1.0 - 0.5) < 0.17
+    image = mix(rgb("26365e") + 0 * x[..., None], rgb("b8964e"), sown.astype(float))
+    shield = (fx < 0.24) & (fy < 0.22) & (fy > -0.28 + 1.1 * np.clip(fx - 0.02, 0, 1) ** 1.5)
+    quarter = (x > 0.5) ^ (fy > 0.0)
+    image = np.where(shield[..., None], np.where(quarter[..., None], rgb("8c2a2a"), rgb("d9c48a")), image)
+    cross = shield & ((fx < 0.02) | (np.abs(fy) < 0.02))
+    image = np.where(cross[..., None], rgb("e6dcc4"), image)
+    for cx, cy, tone in (
+        (0.39, 0.11, "8c2a2a"),
+        (0.61, -0.1, "8c2a2a"),
+        (0.61, 0.11, "e6dcc4"),
+        (0.39, -0.1, "e6dcc4"),
+    ):
+        image = mix(image, rgb(tone), _disc(x, fy, cx, cy, 0.05, 0.06))
+    crown = (fx < 0.16) & (fy > 0.25) & (fy < 0.3 + 0.06 * np.abs(np.cos(np.pi * (x - 0.5) / 0.08)))
+    image = np.where(crown[..., None], rgb("d8ae4a"), image)
+    edge = np.minimum.reduce([x, 1 - x, y, 1 - y])
+    image = np.where((edge < 0.06)[..., None], rgb("7a2426"), image)
+    image = np.where(((edge > 0.06) & (edge < 0.075))[..., None], rgb("c9a850"), image)
+    return np.clip(image * (1 + 0.05 * np.sin(2 * np.pi * y * 128))[..., None], 0, 1)
 
 
 def carpet(field, border, accent, seed):
@@ -153,7 +180,9 @@ def carpet(field, border, accent, seed):
     edge = np.minimum(0.5 - fx, 0.5 - fy)
     wave = np.sin(2 * np.pi * np.where(0.5 - fx < 0.5 - fy, y, x) * 24)
     image = np.where((edge < 0.085)[..., None], np.where((wave > 0)[..., None], rgb(border), rgb(field)), image)
-    image = np.where((np.abs(edge - 0.085) < 0.008)[..., None] | (np.abs(edge - 0.03) < 0.005)[..., None], rgb(accent), image)
+    image = np.where(
+        (np.abs(edge - 0.085) < 0.008)[..., None] | (np.abs(edge - 0.03) < 0.005)[..., None], rgb(accent), image
+    )
     pile = 1 + 0.06 * noise(size, seed, 0.7)
     return np.clip(image * pile[..., None], 0, 1)
 
@@ -172,7 +201,11 @@ def books():
     image = shades[(np.abs(cell_values(number, 303)) * 7).astype(int) % 7]
     top = 0.8 + 0.18 * np.abs(cell_values(number, 305))
     round_back = 0.55 + 0.45 * np.sin(np.pi * np.clip(place, 0.02, 0.98))
-    bands = (np.abs(y - 0.2) < 0.012) | (np.abs(y - 0.68) < 0.012) | ((np.abs(y - 0.55) < 0.05) & (np.abs(place - 0.5) < 0.3))
+    bands = (
+        (np.abs(y - 0.2) < 0.012)
+        | (np.abs(y - 0.68) < 0.012)
+        | ((np.abs(y - 0.55) < 0.05) & (np.abs(place - 0.5) < 0.3))
+    )
     image = np.where(bands[..., None], rgb("b8944a"), image) * round_back[..., None]
     return np.where((y > top)[..., None], rgb("1a0f08"), image)
 
@@ -190,7 +223,11 @@ def old_map():
 
 
 PICTURES = {
-    "paintings": paintings, "tapestry": tapestry, "books": books, "old_map": old_map,
+    "paintings": paintings,
+    "tapestry": tapestry,
+    "arms": arms,
+    "books": books,
+    "old_map": old_map,
     "carpet_red": lambda: carpet("7a1c20", "1f2c4a", "d0a85a", 211),
     "carpet_blue": lambda: carpet("23406a", "6a1f22", "d9c48a", 213),
     "carpet_green": lambda: carpet("2f4f38", "5a2018", "d8bd78", 215),

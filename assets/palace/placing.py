@@ -5,7 +5,6 @@ import random
 import zlib
 from dataclasses import dataclass
 
-import catalogue
 from geometry import add, bounds, centroid, depth_inside, dot, scale, sub
 from shell import Wall
 
@@ -37,7 +36,11 @@ class Placer:
         self.random = random.Random(zlib.crc32(room.name.encode()))
         self.centre = centroid(room.footprint)
         self.walls = [Wall(a, b) for a, b in zip(room.footprint, room.footprint[1:] + room.footprint[:1])]
-        self.walk = [p[:2] for p in feet if room.floor - 0.1 <= p[2] < room.ceiling and depth_inside(room.footprint, p[:2]) > -0.3][::4]
+        self.walk = [
+            p[:2]
+            for p in feet
+            if room.floor - 0.1 <= p[2] < room.ceiling and depth_inside(room.footprint, p[:2]) > -0.3
+        ][::4]
         self.solids = []  # convex polygons in the plan that pieces keep out of
         self.taken = {i: [] for i in range(len(self.walls))}  # per wall: (u0, u1, z0, z1) in use
         self.count = 0
@@ -106,9 +109,19 @@ class Placer:
         """The free place for a rectangle nearest to a point, or None."""
         near = near or self.centre
         x0, y0, x1, y1 = bounds(self.room.footprint)
-        steps = [(x0 + 0.25 * i, y0 + 0.25 * j) for i in range(int((x1 - x0) * 4) + 1) for j in range(int((y1 - y0) * 4) + 1)]
+        steps = [
+            (x0 + 0.25 * i, y0 + 0.25 * j) for i in range(int((x1 - x0) * 4) + 1) for j in range(int((y1 - y0) * 4) + 1)
+        ]
         c, s = math.cos(turn), math.sin(turn)
-        corners = [(c * x - s * y, s * x + c * y) for x, y in ((-width / 2, -depth / 2), (width / 2, -depth / 2), (width / 2, depth / 2), (-width / 2, depth / 2))]
+        corners = [
+            (c * x - s * y, s * x + c * y)
+            for x, y in (
+                (-width / 2, -depth / 2),
+                (width / 2, -depth / 2),
+                (width / 2, depth / 2),
+                (-width / 2, depth / 2),
+            )
+        ]
         for at in sorted(steps, key=lambda p: (round(math.dist(p, near), 3), p)):
             if self.fits([add(at, corner) for corner in corners]):
                 return at
@@ -158,7 +171,10 @@ class Placer:
         """Puts a piece against a wall if its place is free."""
         wall, shape = self.walls[index], self.shape(name)
         turn = math.atan2(wall.direction[1], wall.direction[0])
-        at = add(wall.point(u, 0)[:2], scale(wall.inward, CLEAR_OF_WALL - shape.low[1] if standing else CLEAR_OF_PICTURE - min(0.0, shape.low[1])))
+        at = add(
+            wall.point(u, 0)[:2],
+            scale(wall.inward, CLEAR_OF_WALL - shape.low[1] if standing else CLEAR_OF_PICTURE - min(0.0, shape.low[1])),
+        )
         outline = self.outline(name, at, turn, 0.0)
         if standing and not self.fits(outline, wall_margin=0.01):
             return False
@@ -211,7 +227,9 @@ class Placer:
                 number = int((u1 - u0 + spacing) / pitch)
                 first = (u0 + u1 - (number - 1) * pitch) / 2 - (shape.low[0] + shape.high[0]) / 2
                 for k in range(number):
-                    if done < most and self.at_wall(names[done % len(names)], index, first + k * pitch, height, standing):
+                    if done < most and self.at_wall(
+                        names[done % len(names)], index, first + k * pitch, height, standing
+                    ):
                         done += 1
         return done
 

@@ -11,6 +11,8 @@ from pictures import PICTURES
 from shell import centre_of
 from textures import SURFACES
 
+# Blender sums smooth normals of larger meshes on several threads, in no fixed order: the file would differ run by run.
+MOST_SMOOTH_FACES = 1000
 LIGHT_WATTS = 12.566370614  # the exporter divides a point light's watts by 4 pi to get candelas
 
 
@@ -75,6 +77,8 @@ class Scene:
 
     def mesh(self, name, data):
         """A Blender mesh from mesh data; texture coordinates are divided by the metres a picture covers."""
+        if any(data.smooth) and len(data.faces) > MOST_SMOOTH_FACES:
+            raise ValueError(f"{name}: {len(data.faces)} faces, some of them smooth")
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata(data.points, [], data.faces)
         names = sorted(set(data.materials))
@@ -163,6 +167,16 @@ class Scene:
 
     def export(self, path):
         bpy.ops.export_scene.gltf(
-            filepath=path, export_format="GLB", export_extras=True, export_lights=True, export_cameras=True,
-            export_apply=False, export_yup=True, export_animations=False, export_skins=False, export_morph=False,
-            export_image_format="JPEG", convert_lighting_mode="COMPAT")
+            filepath=path,
+            export_format="GLB",
+            export_extras=True,
+            export_lights=True,
+            export_cameras=True,
+            export_apply=False,
+            export_yup=True,
+            export_animations=False,
+            export_skins=False,
+            export_morph=False,
+            export_image_format="JPEG",
+            convert_lighting_mode="COMPAT",
+        )

@@ -7,8 +7,26 @@ neighbours have on it, so the shell and its portals share whole edges and no T-j
 import math
 from dataclasses import dataclass, field
 
-from geometry import (TOUCH, add, bounds, clip_convex, cross, distinct, dot, grid_lines, inset, left_normal, length,
-                      lerp, newell, scale, snap_point, sub, triangulate, unit)
+from geometry import (
+    TOUCH,
+    add,
+    bounds,
+    clip_convex,
+    cross,
+    distinct,
+    dot,
+    grid_lines,
+    inset,
+    left_normal,
+    length,
+    lerp,
+    newell,
+    scale,
+    snap_point,
+    sub,
+    triangulate,
+    unit,
+)
 
 STEP = 1.25  # longest side of a wall or floor panel, metres
 
@@ -27,6 +45,7 @@ class Hole:
     outline: list  # points of the portal in space, counter-clockwise seen from inside the room's *outside*
     distance: float
     material: str = "stone_trim"
+    glazed: bool = False  # this room's side carries the glazing bars
 
 
 @dataclass
@@ -89,8 +108,10 @@ class Shell:
         axes = ((*wall.direction, 0.0), (0.0, 0.0, 1.0))
         for p, q in zip(ring, ring[1:] + ring[:1]):
             middle = ((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)
-            if min(abs(middle[0] - box[0]), abs(middle[0] - box[2]),
-                   abs(middle[1] - box[1]), abs(middle[1] - box[3])) < TOUCH:
+            if (
+                min(abs(middle[0] - box[0]), abs(middle[0] - box[2]), abs(middle[1] - box[1]), abs(middle[1] - box[3]))
+                < TOUCH
+            ):
                 continue
             corner = min(corners, key=lambda c: math.dist(c, middle))
             triangle = [wall.point(*corner), wall.point(*q), wall.point(*p)]
@@ -229,8 +250,10 @@ class Shell:
             axes = face.uv_axes or default_axes(face.points)
             for corner in triangulate(face.points):
                 points = [face.points[i] for i in corner]
-                yield points, [(dot(p, axes[0] + (0.0,) * (3 - len(axes[0]))),
-                                dot(p, axes[1] + (0.0,) * (3 - len(axes[1])))) for p in points], face.material
+                yield points, [
+                    (dot(p, axes[0] + (0.0,) * (3 - len(axes[0]))), dot(p, axes[1] + (0.0,) * (3 - len(axes[1]))))
+                    for p in points
+                ], face.material
 
 
 class _Frame:

@@ -4,7 +4,7 @@ import math
 
 from catalogue import coffer_name, column_name, pillar_name
 from fittings import balustrade, flight
-from geometry import add, depth_inside, inset, length, lerp, scale, sub
+from geometry import add, depth_inside, inset, length, lerp, rectangle, scale, sub
 from meshes import Mesh, box
 from openings import WELLS
 from placing import LIFT, Well
@@ -18,11 +18,14 @@ COLUMNS = {  # room: places of free columns, radius
     "MarbleSaloon": ([(x, y) for x in (-2.6, 2.6) for y in (13.25, 15.5)], 0.26),
     "BallRoom": ([(x, y) for x in (14.0, 24.0) for y in (-22.5, -20.0, -17.0, -14.5)], 0.26),
     "Chapel": ([(x, y) for x in (-17.0, -14.75, -12.0) for y in (18.6, 24.4)], 0.3),
-    "Belvedere": ([], 0.25), "Rotunda": ([], 0.26)}
+    "Belvedere": ([], 0.25),
+    "Rotunda": ([], 0.26),
+}
 VAULT_AT_PILLAR = 0.95  # how much higher than its spring the undercroft's vault is over a pillar
 PILLARS = {
     "Undercroft": [(x, y) for x in (-2.25, 2.25) for y in (-22.0, -16.5, -11.5)],
-    "Cistern": [(x, y) for x in (4.5, 7.0, 9.5) for y in (-3.5, 0.0, 3.5)]}
+    "Cistern": [(x, y) for x in (4.5, 7.0, 9.5) for y in (-3.5, 0.0, 3.5)],
+}
 
 
 def build(placer):
@@ -60,7 +63,14 @@ def _entablature(placer):
     mesh = Mesh()
     for y in (y0 + 1.6, y1 - 1.6):
         for half, low, high in ((0.3, 5.004, 5.35), (0.34, 5.35, 5.42), (0.42, 5.42, 5.55)):
-            mesh.append(box((x0 + 0.012, y - half, low), (x1 - 0.012, y + half, high), "marble_white", "we" + ("b" if half == 0.34 else "")))
+            mesh.append(
+                box(
+                    (x0 + 0.012, y - half, low),
+                    (x1 - 0.012, y + half, high),
+                    "marble_white",
+                    "we" + ("b" if half == 0.34 else ""),
+                )
+            )
     placer.scene.local_mesh(placer.room.name, f"{placer.room.name}_entablature", mesh)
 
 
@@ -73,13 +83,23 @@ def _must(placer, name, at):
 def _coffers(placer):
     """Equal coffers in rows along the first wall of a four-sided ceiling."""
     room = placer.room
-    if len(room.footprint) != 4 or abs(length(sub(room.footprint[2], room.footprint[1])) - length(sub(room.footprint[3], room.footprint[0]))) > 0.01:
+    if (
+        len(room.footprint) != 4
+        or abs(length(sub(room.footprint[2], room.footprint[1])) - length(sub(room.footprint[3], room.footprint[0])))
+        > 0.01
+    ):
         return
     a, b, _, d = inset(room.footprint, 0.17)
     u, v = sub(b, a), sub(d, a)
     columns, rows = max(2, round(length(u) / COFFER_SIDE)), max(2, round(length(v) / COFFER_SIDE))
-    material = "wood_dark" if room.wall.startswith("wood") else "wood_light" if room.theme in ("guard", "billiard", "servants") else "plaster"
-    name = coffer_name(length(u) / columns - 0.004, length(v) / rows - 0.004, material)
+    material = (
+        "wood_dark"
+        if room.wall.startswith("wood")
+        else "wood_light"
+        if room.theme in ("guard", "billiard", "servants")
+        else "plaster"
+    )
+    name = coffer_name(length(u) / columns, length(v) / rows, material)
     turn = math.atan2(u[1], u[0])
     for i in range(columns):
         for j in range(rows):
@@ -114,20 +134,25 @@ def _stair(placer, stair):
     mesh = Mesh()
     mesh.append(flight(stair, front, width, stair.bottom + LIFT, middle, eastward=False))
     mesh.append(flight(stair, back, width, middle, stair.top, eastward=True))
-    mesh.append(box((x0 - 0.2, y0 + 0.005, middle - 0.3), (stair.landing - 0.002, y1 - 0.005, middle - 0.04), "marble_white"))
+    mesh.append(
+        box((x0 - 0.2, y0 + 0.005, middle - 0.3), (stair.landing - 0.002, y1 - 0.005, middle - 0.04), "marble_white")
+    )
     mesh.append(box((x0 - 0.2, y0 + 0.005, middle - 0.04), (stair.landing - 0.002, y1 - 0.005, middle), "marble_dark"))
     for x in (x0 - 0.05, stair.landing - 0.25):
         for y in (y0 + 0.2, y1 - 0.2):
-            mesh.append(box((x - 0.12, y - 0.12, stair.bottom + LIFT), (x + 0.12, y + 0.12, middle - 0.3), "marble_cream", "bt"))
-    outer = y1 - 0.1 if stair.front_north else y0 + 0.1
-    inner = (y0 + y1) / 2
+            mesh.append(
+                box((x - 0.12, y - 0.12, stair.bottom + LIFT), (x + 0.12, y + 0.12, middle - 0.3), "marble_cream", "bt")
+            )
+    name = placer.room.name
+    placer.scene.local_mesh(name, f"{name}_stair", mesh)
     rise = (middle - stair.bottom) / (x1 - stair.landing)
-    mesh.append(_sloped_rail(stair.landing, x1, outer, middle, -rise))
-    share = min(1.0, max(0.0, (placer.room.ceiling - 0.6 - middle) / (stair.top - middle)))
-    inner += -0.1 if stair.front_north else 0.1
-    mesh.append(_sloped_rail(stair.landing, stair.landing + share * (x1 - stair.landing), inner, middle, rise))
-    placer.scene.local_mesh(placer.room.name, f"{placer.room.name}_stair", mesh)
-    placer.solids.append(Well([(x0 - 0.25, y0 - 0.25), (x1 + 0.9, y0 - 0.25), (x1 + 0.9, y1 + 0.2), (x0 - 0.25, y1 + 0.2)]))
+    outer = y1 - 0.1 if stair.front_north else y0 + 0.1
+    inner = (y0 + y1) / 2 + (-0.1 if stair.front_north else 0.1)
+    under_ceiling = min(1.0, max(0.0, (placer.room.ceiling - 0.6 - middle) / (stair.top - middle)))
+    end = stair.landing + under_ceiling * (x1 - stair.landing)
+    placer.scene.local_mesh(name, f"{name}_stair_rail_0", _sloped_rail(stair.landing, x1, outer, middle, -rise))
+    placer.scene.local_mesh(name, f"{name}_stair_rail_1", _sloped_rail(stair.landing, end, inner, middle, rise))
+    placer.solids.append(Well(rectangle(x0 - 0.25, y0 - 0.25, x1 + 0.9, y1 + 0.2)))
 
 
 def _sloped_rail(x0, x1, y, z_at_x0, slope):
@@ -136,7 +161,13 @@ def _sloped_rail(x0, x1, y, z_at_x0, slope):
     if length_x < 0.3:
         return Mesh()
     rail = balustrade(length_x)
-    return rail.map(lambda p: (p[0] + (x0 + x1) / 2, p[1] + y, p[2] * 0.96 + 0.02 + z_at_x0 + slope * (p[0] + length_x / 2) - (0.0 if slope < 0 else -0.1)))
+    return rail.map(
+        lambda p: (
+            p[0] + (x0 + x1) / 2,
+            p[1] + y,
+            p[2] * 0.96 + 0.02 + z_at_x0 + slope * (p[0] + length_x / 2) - (0.0 if slope < 0 else -0.1),
+        )
+    )
 
 
 def _well_rails(placer, well):

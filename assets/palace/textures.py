@@ -8,7 +8,7 @@ import numpy as np
 
 def rgb(text):
     """A colour from its hexadecimal name."""
-    return np.array([int(text[i:i + 2], 16) for i in (0, 2, 4)]) / 255.0
+    return np.array([int(text[i : i + 2], 16) for i in (0, 2, 4)]) / 255.0
 
 
 def mix(a, b, share):
@@ -27,7 +27,7 @@ def noise(size, seed, falloff=1.6, stretch=(1.0, 1.0)):
     fy, fx = np.meshgrid(np.fft.fftfreq(size) * size, np.fft.fftfreq(size) * size, indexing="ij")
     radius = np.hypot(fx * stretch[0], fy * stretch[1])
     radius[0, 0] = 1.0
-    spectrum = np.fft.fft2(rng.standard_normal((size, size))) / radius ** falloff
+    spectrum = np.fft.fft2(rng.standard_normal((size, size))) / radius**falloff
     spectrum[0, 0] = 0.0
     field = np.fft.ifft2(spectrum).real
     return field / field.std()
@@ -146,8 +146,12 @@ def masonry(size, rows, columns, seed, colours, mortar, joint, rough=0.1, spread
     base = mix(rgb(colours[0]), rgb(colours[1]), 0.5 + 0.5 * cell_values(stone, seed))
     base = base * (1 + spread * cell_values(stone, seed + 1) + rough * noise(size, seed, 1.0))[..., None]
     bevel = np.clip(gap - 1.0, 0.0, 1.0)
-    return np.clip(mix(rgb(mortar) * (1 + 0.05 * noise(size, seed + 2, 0.8))[..., None], base, np.clip(gap * 1.5 - 0.5, 0, 1))
-                   * (0.86 + 0.14 * bevel)[..., None], 0, 1)
+    return np.clip(
+        mix(rgb(mortar) * (1 + 0.05 * noise(size, seed + 2, 0.8))[..., None], base, np.clip(gap * 1.5 - 0.5, 0, 1))
+        * (0.86 + 0.14 * bevel)[..., None],
+        0,
+        1,
+    )
 
 
 def flagstone():
@@ -245,25 +249,52 @@ def leaves():
     return mix(rgb("1c3314"), rgb("5d8a3a"), 0.45 + 0.25 * field)
 
 
-PAPERS = {"red": ("7a1f24", "95383a"), "green": ("2f4f3a", "44694f"), "blue": ("34506f", "4d6c8d"),
-          "gold": ("a5803c", "c29c55"), "rose": ("b27f78", "c69a90"), "ivory": ("cfc3a6", "ded4bb")}
+PAPERS = {
+    "red": ("7a1f24", "95383a"),
+    "green": ("2f4f3a", "44694f"),
+    "blue": ("34506f", "4d6c8d"),
+    "gold": ("a5803c", "c29c55"),
+    "rose": ("b27f78", "c69a90"),
+    "ivory": ("cfc3a6", "ded4bb"),
+}
 
 SURFACES = {
-    "parquet": parquet, "planks": planks, "wood_panel": wood_panel, "wainscot": wainscot,
-    "wood_dark": lambda: grain(256, 25, "2a170c", "5a3519"), "wood_light": lambda: grain(256, 27, "8a5c2e", "bd8c53"),
-    "marble_check": marble_check, "marble_rose": marble_rose,
+    "parquet": parquet,
+    "planks": planks,
+    "wood_panel": wood_panel,
+    "wainscot": wainscot,
+    "wood_dark": lambda: grain(256, 25, "2a170c", "5a3519"),
+    "wood_light": lambda: grain(256, 27, "8a5c2e", "bd8c53"),
+    "marble_check": marble_check,
+    "marble_rose": marble_rose,
     "marble_cream": lambda: marble(512, 61, "ddd0b6", "cdbd9d", "a8926c"),
     "marble_rose_plain": lambda: marble(256, 69, "a9685c", "8f4d44", "dcb8a8", 12.0),
     "marble_white": lambda: marble(256, 63, "eae7e1", "d8d4cc", "aaa59b"),
     "marble_dark": lambda: marble(256, 65, "26382f", "33493c", "8fa595", 12.0),
-    "stone_wall": stone_wall, "stone_block": stone_block, "stone_trim": lambda: tinted("b9ae98", 67, 0.05, 0.9),
-    "flagstone": flagstone, "cobbles": cobbles, "brick": brick,
-    "plaster": lambda: tinted("e4dfd2", 83, 0.015), "plaster_warm": lambda: tinted("d6c6a2", 85, 0.03),
-    "plaster_ochre": lambda: tinted("cfa65c", 87, 0.04), "stars": stars, "roof_tiles": roof_tiles, "water": water,
-    "sky": sky, "leaves": leaves,
-    "cloth_red": lambda: cloth("8c1f26", 101), "cloth_blue": lambda: cloth("2c4a78", 102),
-    "cloth_green": lambda: cloth("2f5a3c", 103), "cloth_gold": lambda: cloth("b48a3c", 104),
-    "cloth_white": lambda: cloth("e6e0d2", 105), "leather": lambda: tinted("5b3018", 106, 0.1, 1.0),
+    "stone_wall": stone_wall,
+    "stone_block": stone_block,
+    "stone_trim": lambda: tinted("b9ae98", 67, 0.05, 0.9),
+    "flagstone": flagstone,
+    "cobbles": cobbles,
+    "brick": brick,
+    "plaster": lambda: tinted("e4dfd2", 83, 0.015),
+    "plaster_warm": lambda: tinted("d6c6a2", 85, 0.03),
+    "plaster_ochre": lambda: tinted("cfa65c", 87, 0.04),
+    "stars": stars,
+    "roof_tiles": roof_tiles,
+    "water": water,
+    "sky": sky,
+    "leaves": leaves,
+    "cloth_red": lambda: cloth("8c1f26", 101),
+    "cloth_blue": lambda: cloth("2c4a78", 102),
+    "cloth_green": lambda: cloth("2f5a3c", 103),
+    "cloth_gold": lambda: cloth("b48a3c", 104),
+    "cloth_white": lambda: cloth("e6e0d2", 105),
+    "leather": lambda: tinted("5b3018", 106, 0.1, 1.0),
 }
-SURFACES.update({f"paper_{name}": (lambda pair=pair, seed=110 + i: paper(*pair, seed))
-                 for i, (name, pair) in enumerate(PAPERS.items())})
+SURFACES.update(
+    {
+        f"paper_{name}": (lambda pair=pair, seed=110 + i: paper(*pair, seed))
+        for i, (name, pair) in enumerate(PAPERS.items())
+    }
+)

@@ -7,9 +7,22 @@ from meshes import tube
 from openings import WELLS
 from placing import CLEAR_OF_PICTURE
 
-CLOTHS = {"paper_red": "cloth_red", "paper_green": "cloth_green", "paper_blue": "cloth_blue", "paper_gold": "cloth_red",
-          "paper_rose": "cloth_white", "paper_ivory": "cloth_blue", "wood_panel": "cloth_green", "marble_cream": "cloth_red"}
-RUGS = {"cloth_red": "carpet_red", "cloth_green": "carpet_green", "cloth_blue": "carpet_blue", "cloth_white": "carpet_blue"}
+CLOTHS = {
+    "paper_red": "cloth_red",
+    "paper_green": "cloth_green",
+    "paper_blue": "cloth_blue",
+    "paper_gold": "cloth_red",
+    "paper_rose": "cloth_white",
+    "paper_ivory": "cloth_blue",
+    "wood_panel": "cloth_green",
+    "marble_cream": "cloth_red",
+}
+RUGS = {
+    "cloth_red": "carpet_red",
+    "cloth_green": "carpet_green",
+    "cloth_blue": "carpet_blue",
+    "cloth_white": "carpet_blue",
+}
 PORTRAITS, SCENES = (4, 5, 6, 7, 12, 14), (0, 1, 2, 3, 8, 9, 10, 11, 13, 15)
 BRIGHTNESS = 1.8  # over the candelas below; one place to make the whole palace lighter
 WARM, CANDLE, DAY = (1.0, 0.85, 0.64), (1.0, 0.72, 0.42), (0.86, 0.93, 1.0)
@@ -31,7 +44,9 @@ def picture_names(p, kind, numbers):
 def light(p, at, height, candela, colour=WARM, reach=None):
     p.lights = getattr(p, "lights", 0)
     candela *= BRIGHTNESS
-    p.scene.light(p.room.name, p.lights, (*at, p.room.floor + height), candela, colour, reach or 4.0 + candela ** 0.5 * 1.3)
+    p.scene.light(
+        p.room.name, p.lights, (*at, p.room.floor + height), candela, colour, reach or 4.0 + candela**0.5 * 1.3
+    )
     p.lights += 1
 
 
@@ -54,7 +69,9 @@ def chandeliers(p, name="chandelier", columns=1, rows=1, candela=38.0, drop=0.0,
 
 def _cable(p, at, top, rise):
     z = p.room.floor + top
-    p.scene.local_mesh(p.room.name, f"{p.room.name}_cable_{p.count}", tube([(*at, z), (*at, z + rise - 0.004)], 0.015, "brass", 5))
+    p.scene.local_mesh(
+        p.room.name, f"{p.room.name}_cable_{p.count}", tube([(*at, z), (*at, z + rise - 0.004)], 0.015, "brass", 5)
+    )
 
 
 def curtains(p, material=None):
@@ -78,7 +95,9 @@ def fire(p, walls=None):
     before = p.count
     if p.stand("fireplace", walls=walls) == 0:
         return False
-    wall, (u0, u1, _, _) = next((w, t[-1]) for w, t in p.taken.items() if t and abs(t[-1][1] - t[-1][0] - 2.22) < 0.01 and p.count > before)
+    wall, (u0, u1, _, _) = next(
+        (w, t[-1]) for w, t in p.taken.items() if t and abs(t[-1][1] - t[-1][0] - 2.22) < 0.01 and p.count > before
+    )
     u = (u0 + u1) / 2
     own = p.walls[wall]
     light(p, add(own.point(u, 0)[:2], scale(own.inward, 0.9)), 0.7, 5.0, (1.0, 0.5, 0.2), 5.0)
@@ -112,7 +131,11 @@ def consoles(p, count=1):
             return
         wall = next(w for w, t in p.taken.items() if len(t) > before[w])
         u0, u1, _, _ = p.taken[wall][-1]
-        for share, name in ((0.5, p.random.choice(["flowers", "vase.0", "vase.1"])), (0.22, "candlestick"), (0.78, "candlestick")):
+        for share, name in (
+            (0.5, p.random.choice(["flowers", "vase.0", "vase.1"])),
+            (0.22, "candlestick"),
+            (0.78, "candlestick"),
+        ):
             at = add(p.walls[wall].point(u0 + (u1 - u0) * share, 0)[:2], scale(p.walls[wall].inward, 0.25))
             p.on_top(name, at, 0.875)
 
@@ -120,8 +143,7 @@ def consoles(p, count=1):
 def table_group(p, table, chair, seats, near=None, radius=None, rug=None):
     """A table with seats about it, where the whole group fits."""
     shape = p.shape(table)
-    width, depth = shape.size[0], shape.size[1]
-    radius = radius or width / 2 + 0.3
+    radius = radius or shape.size[0] / 2 + 0.3
     at = p.spot(2 * radius + 0.6, 2 * radius + 0.6, near)
     if at is None:
         return None
@@ -148,7 +170,11 @@ def long_table_group(p, table, chair, seats_a_side, near=None):
                 y = side * (shape.size[1] / 2 + 0.22)
                 p.add(chair, (at[0] + c * x - s * y, at[1] + s * x + c * y), turn + (math.pi if side > 0 else 0.0))
         for k in (-1, 0, 1):
-            p.on_top("candlestick", (at[0] + c * k * 0.8, at[1] + s * k * 0.8), shape.high[2] if table != "dining_table" else 0.76)
+            p.on_top(
+                "candlestick",
+                (at[0] + c * k * 0.8, at[1] + s * k * 0.8),
+                shape.high[2] if table != "dining_table" else 0.76,
+            )
         return at
     return None
 
@@ -205,7 +231,7 @@ def throne(p):
     p.rug("great_rug.carpet_red", p.centre)
     for _ in range(4):
         p.place("candelabrum", near=p.random.choice(p.room.footprint))
-    p.hang("tapestry", 1.3, 2)
+    p.hang("arms", 1.3, 2)
     p.fill("stool.cloth_red", spacing=0.6, most=8)
     p.hang("trophy", 2.6, 2)
     sconces(p, 4)
@@ -260,7 +286,12 @@ def library(p):
     sconces(p, 4, 2.6)
     if big:
         a, c = p.room.footprint[0], p.room.footprint[2]
-        for at in ((a[0] + 2.0, a[1] + 1.8), (c[0] - 2.0, a[1] + 1.8), (a[0] + 2.0, c[1] - 1.8), (c[0] - 2.0, c[1] - 1.8)):
+        for at in (
+            (a[0] + 2.0, a[1] + 1.8),
+            (c[0] - 2.0, a[1] + 1.8),
+            (a[0] + 2.0, c[1] - 1.8),
+            (c[0] - 2.0, c[1] - 1.8),
+        ):
             p.add("chandelier_small", at, 0, p.room.ceiling - p.room.floor - 0.004, solid=False)
             light(p, at, 3.2, 22.0)
     else:
@@ -302,8 +333,18 @@ def gallery(p):
     p.fill("bench", spacing=1.0, most=6)
     p.fill(f"chair.{tone}", spacing=1.2, most=4)
     sconces(p, 6, 2.1)
-    long_side = math.dist(p.room.footprint[0], p.room.footprint[1]) > math.dist(p.room.footprint[1], p.room.footprint[2])
-    number = max(2, round(max(math.dist(p.room.footprint[0], p.room.footprint[1]), math.dist(p.room.footprint[1], p.room.footprint[2])) / 5))
+    long_side = math.dist(p.room.footprint[0], p.room.footprint[1]) > math.dist(
+        p.room.footprint[1], p.room.footprint[2]
+    )
+    number = max(
+        2,
+        round(
+            max(
+                math.dist(p.room.footprint[0], p.room.footprint[1]), math.dist(p.room.footprint[1], p.room.footprint[2])
+            )
+            / 5
+        ),
+    )
     turn = math.atan2(*(b - a for a, b in zip(p.room.footprint[0], p.room.footprint[1])))
     if number >= 3 and p.room.footprint[0][1] == p.room.footprint[1][1] and not long_side:
         p.rug(f"runner.{RUGS[tone]}", p.centre, 0.0 if turn else 0.0)
@@ -373,7 +414,7 @@ def entrance(p):
         p.place(f"statue.{k}", near=lerp(corner, p.centre, 0.12))
     p.fill("tree.1", spacing=2.0, most=4)
     p.hang("trophy", 2.4, 4)
-    p.hang("tapestry", 1.25, 2)
+    p.hang(["arms", "tapestry"], 1.25, 2)
     sconces(p, 4)
     chandeliers(p, "chandelier", 1, 1, 46.0, rose=False)
 
@@ -393,7 +434,7 @@ def marble(p):
 
 
 def great_hall(p):
-    p.hang("tapestry", 1.5, 6)
+    p.hang(["tapestry", "arms"], 1.5, 6)
     fire(p, walls=[0, 2])
     p.fill("armour", spacing=1.8, most=6)
     p.fill("bench", spacing=0.5, most=10)
@@ -411,7 +452,7 @@ def aisle(p):
     for k in range(4):
         p.place(f"statue.{k}", near=(29.3, -7.5 + 4.5 * k), turn=math.pi / 2)
     p.fill("bench", spacing=1.2, most=6)
-    p.hang("tapestry", 1.3, 4)
+    p.hang(["tapestry", "arms"], 1.3, 4)
     p.hang("torch", 2.0, 6)
     for y in (-6.0, 0.0, 6.0):
         p.add("lantern", (28.0, y), 0, 4.496, solid=False)
@@ -475,7 +516,7 @@ def guard(p):
 
 
 def stairs(p):
-    p.hang("tapestry" if p.room.floor >= 0 else "trophy", 1.3, 2)
+    p.hang("arms" if p.room.floor >= 0 else "trophy", 1.3, 2)
     pictures(p, "portrait", 1.5, 0.8, PORTRAITS, 4)
     p.stand("bench", 2)
     if p.room.floor >= 0:

@@ -4,8 +4,19 @@ import math
 
 from geometry import add, lerp, scale
 from meshes import tube
-from themes import (CANDLE, DAY, PORTRAITS, SCENES, chandeliers, curtains, fire, light, long_table_group, pictures, sconces,
-                    table_group)
+from themes import (
+    CANDLE,
+    DAY,
+    PORTRAITS,
+    SCENES,
+    chandeliers,
+    fire,
+    light,
+    long_table_group,
+    pictures,
+    sconces,
+    table_group,
+)
 
 
 def kitchen(p):
@@ -41,7 +52,7 @@ def chapel(p):
     p.stand("altar", 1, walls=[3])
     p.stand("organ", 1, walls=[1, 0, 2])
     for row in range(5):
-        for y in (-2.6, 2.6):
+        for y in (-1.25, 1.25):
             p.put("pew", (-15.6 + 1.25 * row, 21.5 + y), math.pi / 2)
     p.place("font", near=(-9.0, 19.0))
     for k in range(4):
@@ -58,7 +69,9 @@ def chapel(p):
 
 def _chain(p, at, low, rise):
     z = p.room.floor + low
-    p.scene.local_mesh(p.room.name, f"{p.room.name}_chain_{p.count}", tube([(*at, z), (*at, z + rise)], 0.012, "iron", 4))
+    p.scene.local_mesh(
+        p.room.name, f"{p.room.name}_chain_{p.count}", tube([(*at, z), (*at, z + rise)], 0.012, "iron", 4)
+    )
 
 
 def treasury(p):
@@ -96,7 +109,11 @@ def orangery(p):
     p.fill("statue.1", spacing=2.0, most=2)
     sconces(p, 6)
     for share in (0.25, 0.75):
-        at = lerp(lerp(p.room.footprint[0], p.room.footprint[1], share), lerp(p.room.footprint[3], p.room.footprint[2], share), 0.5)
+        at = lerp(
+            lerp(p.room.footprint[0], p.room.footprint[1], share),
+            lerp(p.room.footprint[3], p.room.footprint[2], share),
+            0.5,
+        )
         p.add("lantern", at, 0, p.room.ceiling - p.room.floor - 0.005, solid=False)
         light(p, at, 2.7, 30.0, DAY)
 
@@ -157,7 +174,11 @@ def barrels(p):
 def store(p):
     p.fill("shelves", spacing=0.6, most=2)
     for k in range(10):
-        p.place(("sack", "barrel", "crate")[k % 3], near=lerp(p.room.footprint[k % 4], p.centre, 0.1 + 0.05 * k), turn=0.4 * k)
+        p.place(
+            ("sack", "barrel", "crate")[k % 3],
+            near=lerp(p.room.footprint[k % 4], p.centre, 0.1 + 0.05 * k),
+            turn=0.4 * k,
+        )
     p.stand("chest", 1)
     p.hang("torch", 1.25, 2)
     _vault_lights(p, 15.0)
@@ -239,4 +260,7 @@ def _free(p, index, u, height):
     """Whether a pilaster keeps half a metre from openings and two from its neighbours."""
     low, high = (height, height + 4.4)
     return all(u + 0.42 < u0 or u - 0.42 > u1 for u0, u1, z0, z1 in p.taken[index] if z0 < high and z1 > low) and all(
-        abs(u - (u0 + u1) / 2) > 2.0 for u0, u1, z0, z1 in p.taken[index] if abs((u1 - u0) - 0.86) < 0.02 and abs(z0 - height) < 0.1)
+        abs(u - (u0 + u1) / 2) > 2.0
+        for u0, u1, z0, z1 in p.taken[index]
+        if abs((u1 - u0) - 0.86) < 0.02 and abs(z0 - height) < 0.1
+    )

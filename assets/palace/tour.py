@@ -14,7 +14,8 @@ TURN_SHARE = 0.08  # share of the remaining turn made in one row
 TURN_MOST = 3.5  # degrees a row
 DOOR_STEP = 0.875  # a way-point stands this far before and behind a door's plane
 
-ROUTE = """EntranceHall Courtyard MarbleSaloon MusicRoom BlueSalon DiningRoom HuntingRoom MapCabinet HuntingRoom DiningRoom
+ROUTE = """
+EntranceHall Courtyard MarbleSaloon MusicRoom BlueSalon DiningRoom HuntingRoom MapCabinet HuntingRoom DiningRoom
 BlueSalon MusicRoom MarbleSaloon RedSalon GreenSalon AudienceChamber TapestryRoom PorcelainCabinet PortraitGallery
 CornerCabinet GuardRoom Kitchen Scullery ServantsHall Vestibule EntranceHall GrandStaircase UpperStaircase
 MinstrelsGallery UpperKneeRoom UpperWingLobby PictureGallery WinterGarden PictureGallery UpperWingLobby UpperKneeRoom
@@ -23,7 +24,8 @@ NorthLanding NorthStaircase ReadingCabinet Library Rotunda Chapel GreenSalon Aud
 Courtyard EntranceHall GrandStaircase Antechamber GreatHall EastAisle KneeRoom WingLobby SculptureGallery Orangery
 SculptureGallery WingLobby KneeRoom PetitionRoom Antechamber GrandStaircase EntranceHall Vestibule CellarLobby
 CellarStair Undercroft WineCellar BarrelVault Undercroft CryptPassage Crypt CryptPassage Undercroft CellarStair
-CheeseCellar BeerCellar BarrelRampFoot BarrelRampHead ClockRoom MunimentRoom CellarLobby Vestibule EntranceHall""".split()
+CheeseCellar BeerCellar BarrelRampFoot BarrelRampHead ClockRoom MunimentRoom CellarLobby Vestibule EntranceHall
+""".split()
 
 START = (0.0, -15.0, 0.0)
 
@@ -36,7 +38,7 @@ VIA = {
     "UpperLibrary": [[(9.0, 24.75), (17.75, 24.75)]],
     "GreatHall": [[(19.0, -6.5), (19.0, 0.0)]],
     "Courtyard": [[(0.0, -5.5), (4.0, -2.5), (4.0, 2.5), (0.0, 5.5)], [(-8.0, 0.0), (-4.25, -2.5), (0.0, -5.5)]],
-    "Chapel": [[(-9.5, 23.5), (-10.0, 21.5), (-13.5, 21.5)]],
+    "Chapel": [[(-9.0, 23.5), (-9.0, 18.25), (-12.0, 17.625)]],
 }
 
 
@@ -65,15 +67,25 @@ class Stair:
         middle, x0, x1 = (self.bottom + self.top) / 2, self.landing, self.box[2]
         turn = (self.box[0] + self.landing) / 2
         clear = self.box[3] + 0.85 if self.front_north else self.box[1] - 0.85
-        return [(x1 + 0.75, clear, self.bottom), (x1 + 0.75, front, self.bottom), (x1, front, self.bottom), (x0, front, middle), (turn, front, middle),
-                (turn, back, middle), (x0, back, middle), (x1, back, self.top), (x1 + 0.75, back, self.top),
-                (x1 + 0.75, clear, self.top)]
+        return [
+            (x1 + 0.75, clear, self.bottom),
+            (x1 + 0.75, front, self.bottom),
+            (x1, front, self.bottom),
+            (x0, front, middle),
+            (turn, front, middle),
+            (turn, back, middle),
+            (x0, back, middle),
+            (x1, back, self.top),
+            (x1 + 0.75, back, self.top),
+            (x1 + 0.75, clear, self.top),
+        ]
 
 
 STAIRS = [
     Stair("GrandStaircase", "UpperStaircase", 0.0, 5.0, (5.25, -16.25, 10.375, -12.75), 6.875, True, 14),
     Stair("NorthStaircase", "NorthLanding", 0.0, 5.0, (26.75, 20.25, 31.75, 23.75), 28.25, False, 14),
-    Stair("CellarStair", "CellarLobby", -4.0, 0.0, (5.25, -23.75, 10.375, -20.25), 6.875, True, 12)]
+    Stair("CellarStair", "CellarLobby", -4.0, 0.0, (5.25, -23.75, 10.375, -20.25), 6.875, True, 12),
+]
 
 
 def way_points(rooms, portals):
@@ -106,8 +118,10 @@ def _passage(here, there, doors, rooms):
     portal = doors[frozenset((here, there))]
     forward = scale(portal.normal, 1.0 if portal.source == here else -1.0)
     x, y, z = portal.centre
-    return [(x - forward[0] * DOOR_STEP, y - forward[1] * DOOR_STEP, z),
-            (x + forward[0] * DOOR_STEP, y + forward[1] * DOOR_STEP, z)]
+    return [
+        (x - forward[0] * DOOR_STEP, y - forward[1] * DOOR_STEP, z),
+        (x + forward[0] * DOOR_STEP, y + forward[1] * DOOR_STEP, z),
+    ]
 
 
 def smooth_path(points):

@@ -13,7 +13,16 @@ SKIRTING = [(0.0, 0.0), (0.025, 0.0), (0.025, 0.13), (0.012, 0.16), (0.0, 0.17)]
 PLINTH = [(0.0, 0.0), (0.08, 0.0), (0.08, 0.55), (0.03, 0.62), (0.0, 0.62)]
 RAIL = [(0.0, -0.035), (0.02, -0.03), (0.035, -0.01), (0.035, 0.015), (0.015, 0.03), (0.0, 0.035)]
 STRING = [(0.0, -0.15), (0.06, -0.1), (0.06, 0.0), (0.14, 0.04), (0.14, 0.12), (0.0, 0.16)]
-CORNICE = [(0.0, -0.2), (0.025, -0.19), (0.03, -0.15), (0.06, -0.11), (0.11, -0.07), (0.12, -0.035), (0.16, -0.03), (0.16, 0.0)]
+CORNICE = [
+    (0.0, -0.2),
+    (0.025, -0.19),
+    (0.03, -0.15),
+    (0.06, -0.11),
+    (0.11, -0.07),
+    (0.12, -0.035),
+    (0.16, -0.03),
+    (0.16, 0.0),
+]
 SMALL_CORNICE = [(0.0, -0.1), (0.05, -0.08), (0.07, -0.03), (0.07, 0.0), (0.0, 0.015)]
 EAVES = [(0.0, -0.5), (0.06, -0.46), (0.06, -0.34), (0.2, -0.2), (0.3, -0.16), (0.3, -0.04), (0.38, 0.0)]
 
@@ -29,7 +38,7 @@ def trim_mesh(room):
                 _moulding(mesh, wall, (low, high), ends, (profile, room.floor + height, material))
         for hole in wall.holes:
             _frame(mesh, room, wall, hole)
-            if _is_window(hole, room) and room.theme != "court":
+            if hole.glazed:
                 _bars(mesh, wall, hole)
     return mesh
 
@@ -39,12 +48,21 @@ def _courses(room):
     if room.section:
         return []
     if room.theme == "court":
-        return [(PLINTH, 0.0, "stone_trim", True), (STRING, 4.75, "stone_trim", True),
-                (EAVES, room.ceiling - room.floor, "stone_trim", False)]
+        return [
+            (PLINTH, 0.0, "stone_trim", True),
+            (STRING, 4.75, "stone_trim", True),
+            (EAVES, room.ceiling - room.floor, "stone_trim", False),
+        ]
     if room.floor < 0 or room.theme in ("guard", "kitchen", "treasury"):
-        return [] if room.floor < 0 else [(CORNICE if room.top != "barrel" else SMALL_CORNICE, room.spring - room.floor, "stone_trim", False)]
+        return (
+            []
+            if room.floor < 0
+            else [(CORNICE if room.top != "barrel" else SMALL_CORNICE, room.spring - room.floor, "stone_trim", False)]
+        )
     family = room.wall.split("_")[0]
-    wood = {"paper": "wood_white", "wood": "wood_dark", "plaster": "wood_dark", "brick": "wood_dark"}.get(family, "stone_trim")
+    wood = {"paper": "wood_white", "wood": "wood_dark", "plaster": "wood_dark", "brick": "wood_dark"}.get(
+        family, "stone_trim"
+    )
     courses = [(SKIRTING, 0.0, wood, True)]
     if family in ("paper", "marble"):
         courses.append((RAIL, 1.0, "gold" if family == "paper" else "stone_trim", True))
@@ -160,8 +178,11 @@ def _bars(mesh, wall, hole):
 def _top_at(wall, hole, u):
     """Height of the opening's upper edge over one place of the wall."""
     ring = [(wall.along(p), p[2]) for p in hole.outline]
-    heights = [a[1] + (b[1] - a[1]) * (u - a[0]) / (b[0] - a[0])
-               for a, b in zip(ring, ring[1:] + ring[:1]) if abs(b[0] - a[0]) > 1e-6 and min(a[0], b[0]) <= u <= max(a[0], b[0])]
+    heights = [
+        a[1] + (b[1] - a[1]) * (u - a[0]) / (b[0] - a[0])
+        for a, b in zip(ring, ring[1:] + ring[:1])
+        if abs(b[0] - a[0]) > 1e-6 and min(a[0], b[0]) <= u <= max(a[0], b[0])
+    ]
     return max(heights)
 
 
