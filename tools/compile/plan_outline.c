@@ -13,8 +13,12 @@
 /* Loops smaller than this (square metres) are clutter. */
 #define AREA_MIN 0.02
 /* With this many loops, only those of the size of a table or more are drawn. */
-enum { LOOPS_MANY = 150, LABELS_TRIED = 64 };
+enum { LOOPS_MANY = 150, LOOPS_MAX = 1000 };
+/* Points compared with borders while a place for a name is sought. */
+#define LABEL_WORK 300000.0
 #define AREA_MIN_MANY 0.3
+/* How far off an edge (metres) the plan is looked at. */
+#define OFFSET 0.002
 
 typedef struct Flat {
     int64_t x, z;
@@ -69,18 +73,19 @@ static uint32_t find_edges(const EnfSoup *soup, const uint32_t *triangles, uint3
     return made;
 }
 
-/* Leaves, of edges with the same ends, as many as run one way more than the other. */
+/* Leaves, of edges with the same ends, as many as run one way more than the other: what is left still closes everywhere. */
 static uint32_t cancel(FlatEdge *edges, uint32_t count) {
     uint32_t kept = 0;
     qsort(edges, count, sizeof *edges, compare_ends);
     for (uint32_t first = 0, end; first < count; first = end) {
         int balance = 0;
         Flat low = smaller(&edges[first]), high = larger(&edges[first]);
-        for (end = first; end < count && compare_ends(&edges[first], &edges[end]) == 0; end++) {
+        for (end = first;
+             end < count && compare_flat(smaller(&edges[end]), low) == 0 && compare_flat(larger(&edges[end]), high) == 0;
+             end++) {
             balance += compare_flat(edges[end].from, low) == 0 ? 1 : -1;
         }
-        /* Once is enough for a picture: where floors overlap in the plan, an edge may be left several times. */
-        if (balance != 0) {
+        for (int i = 0; i < abs(balance); i++) {
             edges[kept++] = balance > 0 ? (FlatEdge){low, high, false} : (FlatEdge){high, low, false};
         }
     }
@@ -89,22 +94,33 @@ static uint32_t cancel(FlatEdge *edges, uint32_t count) {
 
 /* ---- loops ------------------------------------------------------------------------------------------------------ */
 
-static FlatEdge *next_edge(FlatEdge *edges, uint32_t count, Flat from) {
+/* How far to the left the way turns from one edge to the next, −π to π; turning back counts as left. */
+static double turn(const FlatEdge *from, const FlatEdge *to) {
+    double ax = (double)(from->to.x - from->from.x), az = (double)(from->to.z - from->from.z);
+    double bx = (double)(to->to.x - to->from.x), bz = (double)(to->to.z - to->from.z);
+    double cross = ax * bz - az * bx, dot = ax * bx + az * bz;
+    return cross == 0 && dot < 0 ? ENF_PI : enf_atan2(cross, dot);
+}
+
+/* The unused edge that goes on from the end of `edge`: where several do, the rightmost, on whose side the floor is, so that loops
+ * which touch at a corner stay apart. */
+static FlatEdge *next_edge(FlatEdge *edges, uint32_t count, const FlatEdge *edge) {
     uint32_t low = 0, high = count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (compare_flat(edges[middle].from, from) < 0) {
+        if (compare_flat(edges[middle].from, edge->to) < 0) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    for (; low < count && compare_flat(edges[low].from, from) == 0; low++) {
-        if (!edges[low].used) {
-            return &edges[low];
+    FlatEdge *best = NULL;
+    for (; low < count && compare_flat(edges[low].from, edge->to) == 0; low++) {
+        if (!edges[low].used && (!best || turn(edge, &edges[low]) < turn(edge, best))) {
+            best = &edges[low];
         }
     }
-    return NULL;
+    return best;
 }
 
 static void add_point(EnfPlanOutline *outline, Flat p) {
@@ -138,10 +154,12 @@ static double loop_area(const EnfPlanPoint *points, uint32_t count) {
 }
 
 static void walk(EnfPlanOutline *outline, FlatEdge *edges, uint32_t count, FlatEdge *edge) {
-    EnfPlanLoop loop = {outline->points.count, 0, 0, false};
-    for (; edge && !outline->failed; edge = next_edge(edges, count, edge->to)) {
+    EnfPlanLoop loop = {outline->points.count, 0, 0, false, false};
+    Flat start = edge->from;
+    while (edge && !outline->failed) {
         edge->used = true;
         add_point(outline, edge->from);
+        edge = compare_flat(edge->to, start) == 0 ? NULL : next_edge(edges, count, edge);
     }
     EnfPlanPoint *points = outline->points.data + loop.point_first;
     loop.point_count = straighten(points, outline->points.count - loop.point_first);
@@ -172,34 +190,57 @@ static bool point_inside(const EnfPlanOutline *outline, const EnfPlanLoop *loop,
     return in;
 }
 
-/* Drops clutter, and finds which loops lie on others. */
+/* How many layers of floor lie at `p`. */
+static int layers(const EnfPlanOutline *outline, EnfPlanPoint p) {
+    int count = 0;
+    for (uint32_t i = 0; i < outline->loops.count; i++) {
+        if (point_inside(outline, &outline->loops.data[i], p)) {
+            count += outline->loops.data[i].area > 0 ? 1 : -1;
+        }
+    }
+    return count;
+}
+
+/* A point just off the loop's longest edge, on the side where it has no floor. */
+static EnfPlanPoint just_off(const EnfPlanOutline *outline, const EnfPlanLoop *loop) {
+    EnfPlanPoint best = {0, 0};
+    double longest = -1;
+    for (uint32_t i = 0; i < loop->point_count; i++) {
+        EnfPlanPoint a = outline->points.data[loop->point_first + i];
+        EnfPlanPoint b = outline->points.data[loop->point_first + (i + 1) % loop->point_count];
+        double dx = b.x - a.x, dz = b.z - a.z, length = sqrt(dx * dx + dz * dz);
+        if (length > longest) {
+            longest = length;
+            best = (EnfPlanPoint){(a.x + b.x) / 2 - OFFSET * dz / length, (a.z + b.z) / 2 + OFFSET * dx / length};
+        }
+    }
+    return best;
+}
+
+/* Drops clutter, and finds which loops border on further floor: those are things, or holes in things. */
 static void sort_loops(EnfPlanOutline *outline) {
     if (outline->loops.count == 0) {
         return;
     }
     qsort(outline->loops.data, outline->loops.count, sizeof *outline->loops.data, compare_loops);
-    while (outline->loops.count > LOOPS_MANY && fabs(outline->loops.data[outline->loops.count - 1].area) < AREA_MIN_MANY) {
+    while (outline->loops.count > LOOPS_MANY &&
+           (outline->loops.count > LOOPS_MAX || fabs(outline->loops.data[outline->loops.count - 1].area) < AREA_MIN_MANY)) {
         outline->loops.count--;
     }
-    for (uint32_t i = 1; i < outline->loops.count; i++) {
+    for (uint32_t i = 0; i < outline->loops.count; i++) {
         EnfPlanLoop *loop = &outline->loops.data[i];
-        EnfPlanPoint a = outline->points.data[loop->point_first], b = outline->points.data[loop->point_first + 1];
-        EnfPlanPoint middle = {(a.x + b.x) / 2, (a.z + b.z) / 2};
-        for (uint32_t k = 0; k < i && k < LOOPS_MANY && loop->area > 0 && !loop->inner; k++) {
-            loop->inner = outline->loops.data[k].area > 0 && point_inside(outline, &outline->loops.data[k], middle);
-        }
+        loop->inner = layers(outline, just_off(outline, loop)) > 0;
+        loop->thing = loop->inner && fabs(loop->area) < 0.5 * fabs(outline->loops.data[0].area);
     }
 }
 
 /* ---- the label -------------------------------------------------------------------------------------------------- */
 
-/* Metres from `p` to the nearest border; negative if it is not on the floor. */
+/* Metres from `p` to the nearest border of the floor; negative if it is not on it. */
 static double clearance(const EnfPlanOutline *outline, EnfPlanPoint p) {
     double nearest = 1e300;
-    bool in = point_inside(outline, &outline->loops.data[0], p);
-    for (uint32_t i = 0; i < outline->loops.count && in; i++) {
+    for (uint32_t i = 0; i < outline->loops.count; i++) {
         const EnfPlanLoop *loop = &outline->loops.data[i];
-        in = loop->area > 0 || !point_inside(outline, loop, p);
         for (uint32_t k = 0; k < loop->point_count && !loop->inner; k++) {
             EnfPlanPoint a = outline->points.data[loop->point_first + k];
             EnfPlanPoint b = outline->points.data[loop->point_first + (k + 1) % loop->point_count];
@@ -210,7 +251,7 @@ static double clearance(const EnfPlanOutline *outline, EnfPlanPoint p) {
             nearest = fmin(nearest, x * x + z * z);
         }
     }
-    return in ? sqrt(nearest) : -1;
+    return layers(outline, p) > 0 ? sqrt(nearest) : -1;
 }
 
 static EnfPlanPoint centroid(const EnfPlanOutline *outline, const EnfPlanLoop *loop) {
@@ -226,25 +267,30 @@ static EnfPlanPoint centroid(const EnfPlanOutline *outline, const EnfPlanLoop *l
     return (EnfPlanPoint){x / (3 * twice), z / (3 * twice)};
 }
 
-/* The middle of the largest loop, unless a triangle's middle is clearly farther from every border: rooms are not convex. */
-static void place_label(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
-    outline->label = centroid(outline, &outline->loops.data[0]);
+/* The middle of the largest loop, unless a point of a raster over it is clearly farther from every border: rooms are not convex,
+ * and have holes. The raster is coarser where there is more to compare with. */
+static void place_label(EnfPlanOutline *outline) {
+    const EnfPlanLoop *loop = &outline->loops.data[0];
+    EnfPlanPoint low = outline->points.data[loop->point_first], high = low;
+    for (uint32_t i = 1; i < loop->point_count; i++) {
+        EnfPlanPoint p = outline->points.data[loop->point_first + i];
+        low = (EnfPlanPoint){fmin(low.x, p.x), fmin(low.z, p.z)};
+        high = (EnfPlanPoint){fmax(high.x, p.x), fmax(high.z, p.z)};
+    }
+    outline->label = centroid(outline, loop);
     double best = 1.5 * clearance(outline, outline->label);
-    for (uint32_t i = 0, tried = 0; i < count && tried < LABELS_TRIED; i++) {
-        if (!enf_plan_faces_up(soup, triangles[i])) {
-            continue;
-        }
-        const EnfSoupTriangle *t = &soup->triangles[triangles[i]];
-        EnfVec3 a = enf_grid_point(soup->vertices[t->v[0]].p), b = enf_grid_point(soup->vertices[t->v[1]].p);
-        EnfVec3 c = enf_grid_point(soup->vertices[t->v[2]].p);
-        EnfPlanPoint middle = {(a.x + b.x + c.x) / 3, (a.z + b.z + c.z) / 3};
-        double clear = clearance(outline, middle);
-        tried++;
+    int steps = (int)sqrt(LABEL_WORK / (double)outline->points.count);
+    steps = steps < 4 ? 4 : steps > 20 ? 20 : steps;
+    for (int i = 0; i < steps * steps; i++) {
+        EnfPlanPoint p = {low.x + (high.x - low.x) * (i % steps + 0.5) / steps,
+                          low.z + (high.z - low.z) * (i / steps + 0.5) / steps};
+        double clear = clearance(outline, p);
         if (clear > best) {
             best = clear;
-            outline->label = middle;
+            outline->label = p;
         }
     }
+    outline->clearance = clearance(outline, outline->label);
 }
 
 void enf_plan_outline(EnfPlanOutline *outline, const EnfSoup *soup, const uint32_t *triangles, uint32_t count) {
@@ -264,7 +310,7 @@ void enf_plan_outline(EnfPlanOutline *outline, const EnfSoup *soup, const uint32
     free(edges);
     sort_loops(outline);
     if (outline->loops.count > 0) {
-        place_label(outline, soup, triangles, count);
+        place_label(outline);
     }
 }
 

@@ -14,13 +14,15 @@ typedef struct EnfPlanPoint {
 typedef struct EnfPlanLoop {
     uint32_t point_first, point_count;
     double area; /**< square metres */
-    bool inner;  /**< positive, and inside a larger positive loop: furniture, a platform */
+    bool thing;  /**< inner, and clearly smaller than the floor */
+    bool inner;  /**< there is floor on both sides of it: the border of a thing, or a hole in one */
 } EnfPlanLoop;
 
 typedef struct EnfPlanOutline {
     ENF_ARRAY(EnfPlanPoint) points;
     ENF_ARRAY(EnfPlanLoop) loops; /**< the largest first */
     EnfPlanPoint label;           /**< a point inside, where a name may stand */
+    double clearance;             /**< metres from there to the nearest border that is not inner; negative: unknown */
     bool failed;                  /**< out of memory */
 } EnfPlanOutline;
 

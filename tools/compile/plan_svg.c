@@ -9,6 +9,7 @@
 #include "compile/text.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +20,7 @@
 #define PANEL_TITLE 34.0
 #define LEGEND 64.0
 #define FONT_MAX 15.0
-#define FONT_MIN 3.0
+#define FONT_MIN 1.5
 
 static const char *const palette[] = {"#f3d9c6", "#d5e5d2", "#d3e1ee", "#efe3b8", "#e5d6e8", "#cfe6e3",
                                       "#f2d3d3", "#dfe3c3", "#dcdcf0", "#f0dcb9", "#d9e9c9", "#ead7d0"};
@@ -37,6 +38,7 @@ typedef struct Plan {
     EnfText svg;
     uint32_t *first, *triangles; /* triangles of cell c: triangles[first[c] .. first[c + 1]) */
     uint32_t *storey;            /* of a cell */
+    uint32_t *order;             /* cells, the widest first: what hides in another's plan is drawn over it */
     uint8_t *color;
     ENF_ARRAY(Storey) storeys;
     double scale; /* pixels a metre */
@@ -158,6 +160,38 @@ static bool choose_colors(Plan *plan) {
     return plan->color != NULL;
 }
 
+typedef struct Extent {
+    double area;
+    uint32_t cell;
+} Extent;
+
+static int compare_extents(const void *left, const void *right) {
+    const Extent *a = left, *b = right;
+    if (a->area != b->area) {
+        return a->area > b->area ? -1 : 1;
+    }
+    return (a->cell > b->cell) - (a->cell < b->cell);
+}
+
+static bool sort_cells(Plan *plan) {
+    uint32_t count = plan->layout->cell_count;
+    Extent *extents = malloc(((size_t)count + 1) * sizeof *extents);
+    plan->order = malloc(((size_t)count + 1) * sizeof *plan->order);
+    bool ok = extents && plan->order;
+    for (uint32_t i = 0; i < count && ok; i++) {
+        EnfVec3 low = low_corner(&plan->layout->cells[i]), high = high_corner(&plan->layout->cells[i]);
+        extents[i] = (Extent){(high.x - low.x) * (high.z - low.z), i};
+    }
+    if (ok) {
+        qsort(extents, count, sizeof *extents, compare_extents);
+    }
+    for (uint32_t i = 0; i < count && ok; i++) {
+        plan->order[i] = extents[i].cell;
+    }
+    free(extents);
+    return ok;
+}
+
 /* ---- cells ------------------------------------------------------------------------------------------------------ */
 
 static double page_x(const Plan *plan, const Storey *storey, double x) {
@@ -177,12 +211,13 @@ static void put_loop(Plan *plan, const Storey *storey, const EnfPlanOutline *out
 }
 
 /* The cell's name without its suffix, as large as its width allows. */
-static void put_name(Plan *plan, const Storey *storey, const EnfLayoutCell *cell, EnfPlanPoint at) {
+static void put_name(Plan *plan, const Storey *storey, const EnfLayoutCell *cell, EnfPlanPoint at, double clear) {
     EnfNodeName name = enf_node_name(cell->name);
     double width = (high_corner(cell).x - low_corner(cell).x) * plan->scale;
     double height = (high_corner(cell).z - low_corner(cell).z) * plan->scale;
     size_t letters = name.base > 0 ? name.base : 1;
-    double size = fmin(fmin(FONT_MAX, 0.9 * width / (0.56 * (double)letters)), 0.45 * height);
+    double fitting = clear > 0 ? fmin(width, 2.6 * clear * plan->scale) : width;
+    double size = fmin(fmin(FONT_MAX, 0.9 * fitting / (0.56 * (double)letters)), 0.45 * height);
     if (size < FONT_MIN || name.base == 0) {
         return;
     }
@@ -200,25 +235,32 @@ static void put_box(Plan *plan, const Storey *storey, const EnfLayoutCell *cell)
                  (high.z - low.z) * plan->scale);
 }
 
-static void put_outline(Plan *plan, const Storey *storey, const EnfPlanOutline *outline, const char *fill) {
-    bool furniture = false;
-    enf_text_put(&plan->svg, "<path class=\"cell\" fill=\"%s\" d=\"", fill);
+typedef enum Which { WHICH_ALL, WHICH_THINGS, WHICH_WALLS } Which;
+
+static void put_loops(Plan *plan, const Storey *storey, const EnfPlanOutline *outline, const char *attributes, Which which) {
+    bool any = false;
     for (uint32_t i = 0; i < outline->loops.count; i++) {
-        furniture = furniture || outline->loops.data[i].inner;
-        if (!outline->loops.data[i].inner) {
-            put_loop(plan, storey, outline, &outline->loops.data[i]);
+        const EnfPlanLoop *loop = &outline->loops.data[i];
+        if (which == WHICH_ALL || (which == WHICH_THINGS ? loop->thing : !loop->inner)) {
+            if (!any) {
+                enf_text_put(&plan->svg, "<path %s d=\"", attributes);
+            }
+            any = true;
+            put_loop(plan, storey, outline, loop);
         }
     }
-    enf_text_put(&plan->svg, "\"/>\n");
-    if (furniture) {
-        enf_text_put(&plan->svg, "<path class=\"thing\" d=\"");
-        for (uint32_t i = 0; i < outline->loops.count; i++) {
-            if (outline->loops.data[i].inner) {
-                put_loop(plan, storey, outline, &outline->loops.data[i]);
-            }
-        }
+    if (any) {
         enf_text_put(&plan->svg, "\"/>\n");
     }
+}
+
+/* The floor, which every loop has a part in; things on it; walls. */
+static void put_outline(Plan *plan, const Storey *storey, const EnfPlanOutline *outline, const char *color) {
+    char fill[64];
+    snprintf(fill, sizeof fill, "fill=\"%s\"", color);
+    put_loops(plan, storey, outline, fill, WHICH_ALL);
+    put_loops(plan, storey, outline, "class=\"thing\"", WHICH_THINGS);
+    put_loops(plan, storey, outline, "class=\"wall\"", WHICH_WALLS);
 }
 
 static void put_cell(Plan *plan, uint32_t index, bool names) {
@@ -230,7 +272,8 @@ static void put_cell(Plan *plan, uint32_t index, bool names) {
     plan->failed = plan->failed || outline.failed;
     EnfPlanPoint middle = {0.5 * (low_corner(cell).x + high_corner(cell).x), 0.5 * (low_corner(cell).z + high_corner(cell).z)};
     if (names) {
-        put_name(plan, storey, cell, outline.loops.count > 0 ? outline.label : middle);
+        bool known = outline.loops.count > 0;
+        put_name(plan, storey, cell, known ? outline.label : middle, known ? outline.clearance : 0);
     } else if (outline.loops.count > 0) {
         put_outline(plan, storey, &outline, palette[plan->color[index]]);
     } else {
@@ -320,7 +363,7 @@ static void put_head(Plan *plan, const char *title, uint32_t cells, uint32_t por
                  "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n"
                  "<style>\n"
                  "text{font-family:'Helvetica Neue',Helvetica,Arial,sans-serif;fill:#3a3833}\n"
-                 ".cell{fill-rule:nonzero;stroke:#3a3833;stroke-width:1.6;stroke-linejoin:round}\n"
+                 ".wall{fill:none;stroke:#3a3833;stroke-width:1.6;stroke-linejoin:round}\n"
                  ".box{fill:#fff;fill-opacity:.3;stroke:#8a867c;stroke-width:1;stroke-dasharray:5 3}\n"
                  ".thing{fill:#fff;fill-opacity:.45;stroke:#8a867c;stroke-width:.6;stroke-linejoin:round}\n"
                  ".name{text-anchor:middle}\n"
@@ -373,8 +416,9 @@ static void put_storey(Plan *plan, uint32_t index) {
                  storey->top - 12, storey->floor);
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < plan->layout->cell_count; i++) {
-            if (is_shown(plan, i) && plan->storey[i] == index) {
-                put_cell(plan, i, pass == 1);
+            uint32_t cell = plan->order[i];
+            if (is_shown(plan, cell) && plan->storey[cell] == index) {
+                put_cell(plan, cell, pass == 1);
             }
         }
         if (pass == 0) {
@@ -406,7 +450,7 @@ EnfResult enf_plan_write(const char *path, const char *title, const EnfLayout *l
     plan.layout = layout;
     plan.soup = soup;
     EnfResult result = ENF_OK;
-    if (sort_triangles(&plan) && find_storeys(&plan) && choose_colors(&plan)) {
+    if (sort_triangles(&plan) && find_storeys(&plan) && sort_cells(&plan) && choose_colors(&plan)) {
         put_page(&plan, title);
     } else {
         plan.failed = true;
@@ -420,6 +464,7 @@ EnfResult enf_plan_write(const char *path, const char *title, const EnfLayout *l
     free(plan.first);
     free(plan.triangles);
     free(plan.storey);
+    free(plan.order);
     free(plan.color);
     free(plan.storeys.data);
     return result;
