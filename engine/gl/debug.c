@@ -32,6 +32,9 @@ void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba) {
     enf_gl_set_view(gl, list);
     f->Disable(GL_FRAMEBUFFER_SRGB);
     f->Disable(GL_CULL_FACE);
+    f->Enable(GL_BLEND); /* thousands of clusters: lines add up to a haze, through which what is drawn stays visible */
+    f->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    f->DepthMask(GL_FALSE);
     f->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     f->UseProgram(program->name);
     f->Uniform4fv(program->flat_color, 1, color);
@@ -39,6 +42,8 @@ void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba) {
         enf_gl_draw_batch(gl, list, &list->batches[i]);
     }
     f->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    f->DepthMask(GL_TRUE);
+    f->Disable(GL_BLEND);
     f->BindVertexArray(0);
     f->UseProgram(0);
 }

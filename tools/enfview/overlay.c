@@ -213,7 +213,7 @@ EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error) {
         }
     }
     const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR);
-    enf_gl_draw_wireframe(overlay->viewer->gl, list, 0xff909090u);
+    enf_gl_draw_wireframe(overlay->viewer->gl, list, 0x38a0a0a0u);
     enf_free(NULL, entries, (size_t)map->clusters_count + 1, sizeof *entries);
     return ENF_OK;
 }
@@ -238,10 +238,10 @@ static uint32_t take_id(const uint8_t *pixel) {
     return (uint32_t)pixel[0] | (uint32_t)pixel[1] << 8 | (uint32_t)pixel[2] << 16 | (uint32_t)pixel[3] << 24;
 }
 
-void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, uint8_t *rgba, size_t size) {
+void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, const uint8_t *plain, uint8_t *rgba, size_t size) {
     for (size_t i = 0; i < size; i += 4) {
         uint32_t id = take_id(ids + i);
-        if (id) {
+        if (id && memcmp(plain + i, rgba + i, 4) == 0) {
             uint32_t rgb = overlay_color(map->clusters[id - 1].cell);
             for (int k = 0; k < 3; k++) {
                 rgba[i + (size_t)k] = (uint8_t)((rgba[i + (size_t)k] + (rgb >> (8 * k) & 255u)) / 2u);

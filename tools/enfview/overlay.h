@@ -17,8 +17,8 @@ EnfResult overlay_draw_lines(const Overlay *overlay, EnfError *error);
 /** Clusters that are not in the set, as wireframe; into the bound target. */
 EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error);
 
-/** Mixes each pixel with the colour of its cluster's cell. */
-void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, uint8_t *rgba, size_t size);
+/** Mixes each pixel with the colour of its cluster's cell, except where it differs from `plain`: lines stay as they are. */
+void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, const uint8_t *plain, uint8_t *rgba, size_t size);
 /** Turns cluster + 1 into a colour, 0 into black. */
 void overlay_color_ids(uint8_t *ids, size_t size);
 

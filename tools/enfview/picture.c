@@ -20,7 +20,7 @@ typedef struct Shot {
     EnfCamera observer;
     const EnfVisSet *set;
     const EnfDrawList *list;
-    uint8_t *rgba, *ids;
+    uint8_t *plain, *rgba, *ids; /* the picture before and after overlays */
     uint64_t picture_hash, ids_hash;
     double vis_us, draw_us, frame_ms;
 } Shot;
@@ -71,6 +71,7 @@ static void draw_color(Shot *shot) {
     }
     shot->frame_ms = viewer_quantile(samples, (uint32_t)frames, 0.5);
     enf_gl_target_read(viewer->target, ENF_RENDER_COLOR, shot->rgba);
+    memcpy(shot->plain, shot->rgba, viewer->picture_size);
     shot->picture_hash = enf_hash64(ENF_HASH_START, shot->rgba, viewer->picture_size);
 }
 
@@ -89,7 +90,7 @@ static EnfResult draw_overlays(Shot *shot, EnfError *error) {
         return ENF_OK;
     }
     Overlay overlay = {viewer, shot->set, shot->observer, shot->list->clip_from_eye};
-    /* The id-buffer was drawn since, into the same depth buffer: the same depths, so lines hide as they should. */
+    /* Either mode left its depths in the one depth buffer, so lines hide behind what is in front of them. */
     enf_gl_target_bind(viewer->target, ENF_RENDER_COLOR);
     EnfResult result = o->has_freeze ? overlay_draw_culled(&overlay, error) : ENF_OK;
     if (result == ENF_OK) {
@@ -234,7 +235,7 @@ static EnfResult take(Shot *shot, EnfError *error) {
         return result;
     }
     if (o->debug & DEBUG_CELLS) {
-        overlay_tint_cells(&shot->viewer->map, shot->ids, shot->rgba, shot->viewer->picture_size);
+        overlay_tint_cells(&shot->viewer->map, shot->ids, shot->plain, shot->rgba, shot->viewer->picture_size);
     }
     if (o->stats && (result = save_stats(shot, error)) != ENF_OK) {
         return result;
@@ -246,14 +247,16 @@ int run_picture(Viewer *viewer) {
     EnfError error = {0};
     Shot shot = {.viewer = viewer};
     EnfResult result = viewer_open_pictures(viewer, &error);
+    shot.plain = enf_alloc(NULL, viewer->picture_size, 1);
     shot.rgba = enf_alloc(NULL, viewer->picture_size, 1);
     shot.ids = enf_alloc(NULL, viewer->picture_size, 1);
-    if (result == ENF_OK && (!shot.rgba || !shot.ids)) {
+    if (result == ENF_OK && (!shot.plain || !shot.rgba || !shot.ids)) {
         result = enf_error_set(&error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for a picture");
     }
     if (result == ENF_OK && (result = take(&shot, &error)) == ENF_OK) {
         print_summary(&shot);
     }
+    enf_free(NULL, shot.plain, viewer->picture_size, 1);
     enf_free(NULL, shot.rgba, viewer->picture_size, 1);
     enf_free(NULL, shot.ids, viewer->picture_size, 1);
     return result == ENF_OK ? 0 : viewer_fail(&error);
