@@ -130,20 +130,28 @@ static void add_positions(Overlay *overlay, const EnfVec3 *points, uint32_t coun
     free(packed);
 }
 
+/* What is drawn of a thing. */
+typedef struct Shape {
+    const EnfVec3 *points;
+    const uint32_t *indices;
+    uint32_t point_count, index_count;
+    int mode;
+    Paint paint;
+} Shape;
+
 /* A mesh of one primitive; returns its number. */
-static uint32_t add_mesh(Overlay *overlay, const char *name, const EnfVec3 *points, uint32_t count, const uint32_t *indices,
-                         uint32_t index_count, int mode, Paint paint) {
-    add_positions(overlay, points, count);
+static uint32_t add_mesh(Overlay *overlay, const char *name, const Shape *shape) {
+    add_positions(overlay, shape->points, shape->point_count);
     uint32_t positions = overlay->accessor_count - 1;
-    uint32_t view = add_view(overlay, indices, index_count * sizeof *indices, TARGET_INDICES);
-    add_accessor(overlay, view, TYPE_UINT, index_count, "SCALAR");
+    uint32_t view = add_view(overlay, shape->indices, shape->index_count * sizeof *shape->indices, TARGET_INDICES);
+    add_accessor(overlay, view, TYPE_UINT, shape->index_count, "SCALAR");
     cJSON *mesh = add_object(overlay, overlay->meshes);
     cJSON_AddStringToObject(mesh, "name", name);
     cJSON *primitive = add_object(overlay, cJSON_AddArrayToObject(mesh, "primitives"));
     cJSON_AddNumberToObject(cJSON_AddObjectToObject(primitive, "attributes"), "POSITION", positions);
     cJSON_AddNumberToObject(primitive, "indices", positions + 1);
-    cJSON_AddNumberToObject(primitive, "mode", mode);
-    cJSON_AddNumberToObject(primitive, "material", paint);
+    cJSON_AddNumberToObject(primitive, "mode", shape->mode);
+    cJSON_AddNumberToObject(primitive, "material", shape->paint);
     return overlay->mesh_count++;
 }
 
@@ -172,7 +180,7 @@ static void add_polygon(Overlay *overlay, cJSON *parent, const char *name, const
         indices[made++] = i;
         indices[made++] = i + 1;
     }
-    uint32_t mesh = add_mesh(overlay, name, points, count, indices, made, MODE_TRIANGLES, paint);
+    uint32_t mesh = add_mesh(overlay, name, &(Shape){points, indices, count, made, MODE_TRIANGLES, paint});
     add_node(overlay, parent, name, mesh);
     free(indices);
 }
@@ -187,7 +195,7 @@ static void add_polyline(Overlay *overlay, cJSON *parent, const char *name, cons
         indices[2 * i] = i;
         indices[2 * i + 1] = i + 1;
     }
-    uint32_t mesh = add_mesh(overlay, name, points, count, indices, 2 * (count - 1), MODE_LINES, PAINT_PATH);
+    uint32_t mesh = add_mesh(overlay, name, &(Shape){points, indices, count, 2 * (count - 1), MODE_LINES, PAINT_PATH});
     add_node(overlay, parent, name, mesh);
     free(indices);
 }
@@ -196,7 +204,8 @@ static void add_cross(Overlay *overlay, cJSON *parent, const char *name, EnfVec3
     static const uint32_t indices[6] = {0, 1, 2, 3, 4, 5};
     const EnfVec3 points[6] = {{p.x - CROSS, p.y, p.z}, {p.x + CROSS, p.y, p.z}, {p.x, p.y - CROSS, p.z},
                                {p.x, p.y + CROSS, p.z}, {p.x, p.y, p.z - CROSS}, {p.x, p.y, p.z + CROSS}};
-    add_node(overlay, parent, name, add_mesh(overlay, name, points, 6, indices, 6, MODE_LINES, PAINT_WARNING));
+    const Shape shape = {points, indices, 6, 6, MODE_LINES, PAINT_WARNING};
+    add_node(overlay, parent, name, add_mesh(overlay, name, &shape));
 }
 
 /* ---- content ---------------------------------------------------------------------------------------------------- */

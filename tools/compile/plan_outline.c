@@ -241,7 +241,7 @@ static double clearance(const EnfPlanOutline *outline, EnfPlanPoint p) {
     double nearest = 1e300;
     for (uint32_t i = 0; i < outline->loops.count; i++) {
         const EnfPlanLoop *loop = &outline->loops.data[i];
-        for (uint32_t k = 0; k < loop->point_count && !loop->inner; k++) {
+        for (uint32_t k = 0; k < loop->point_count && (!loop->inner || i == 0); k++) {
             EnfPlanPoint a = outline->points.data[loop->point_first + k];
             EnfPlanPoint b = outline->points.data[loop->point_first + (k + 1) % loop->point_count];
             double dx = b.x - a.x, dz = b.z - a.z, length2 = dx * dx + dz * dz;
