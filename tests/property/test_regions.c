@@ -110,7 +110,7 @@ static void closed_grids_are_quiet(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(1);
     for (uint32_t round = 0; round < enf_test_rounds(12, 300); round++) {
-        uint32_t rooms[WIDE * DEEP], home, other[8];
+        uint32_t rooms[WIDE * DEEP], home = ENF_NONE, other[8];
         Level *level = grid(&rng, rooms);
         uint32_t table = level_block(level, "table", rooms[4], level_box(5, 0, 6, 7, 1, 7));
         Built built = {.reach = NULL};
@@ -135,7 +135,7 @@ static void furniture_in_doors_is_listed_on_both_sides(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(2);
     for (uint32_t round = 0; round < enf_test_rounds(12, 300); round++) {
-        uint32_t rooms[WIDE * DEEP], home, other[8];
+        uint32_t rooms[WIDE * DEEP], home = ENF_NONE, other[8];
         Level *level = grid(&rng, rooms);
         uint32_t owned = level_block(level, "owned", rooms[0], level_box(3, 0.25, 2.25, 4.5, 1, 2.75));
         uint32_t loose = level_block(level, "loose", ENF_NONE, level_box(3.75, 0.25, 2.25, 6, 1, 2.75));
@@ -167,7 +167,7 @@ static void long_things_are_listed_where_they_go(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(3);
     for (uint32_t round = 0; round < enf_test_rounds(8, 200); round++) {
-        uint32_t rooms[WIDE * DEEP], home, other[16];
+        uint32_t rooms[WIDE * DEEP], home = ENF_NONE, other[16];
         Level *level = grid(&rng, rooms);
         uint32_t beam = level_block(level, "beam", rooms[0], level_box(1, 0.5, 2.25, 10, 0.75, 2.5));
         uint32_t pole = level_block(level, "pole", rooms[0], level_box(3, 2.5, 1, 6, 2.75, 1.25));
@@ -253,7 +253,7 @@ static void nested_room_is_quiet(void **state) {
     EnfTestRng rng = enf_test_rng(6);
     for (uint32_t round = 0; round < enf_test_rounds(6, 60); round++) {
         Level *level = level_new();
-        uint32_t home, other[4];
+        uint32_t home = ENF_NONE, other[4];
         EnfBox3 booth_box = level_box(2, 0, 2, 4, 2, 4), door = level_box(4, 0, 2.5, 4, 1.75, 3.5);
         turn(level, &rng);
         uint32_t hall = level_room(level, "hall-room", level_box(0, 0, 0, 8, 4, 8));
@@ -276,7 +276,7 @@ static void nested_room_is_quiet(void **state) {
 static void what_is_in_no_room_is_outside(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng_fixed(7, 7);
-    uint32_t rooms[WIDE * DEEP], home, other[4];
+    uint32_t rooms[WIDE * DEEP], home = ENF_NONE, other[4];
     Level *level = grid(&rng, rooms);
     uint32_t tree = level_block(level, "tree", ENF_NONE, level_box(40, 0, 40, 41, 5, 41));
     Built built = {.reach = NULL};
