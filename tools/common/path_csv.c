@@ -161,7 +161,8 @@ EnfResult enf_path_csv_read(EnfPathCsv *path, const char *file_name, EnfError *e
     if (result != ENF_OK) {
         return result;
     }
-    Reader reader = {(const char *)file.data, (const char *)file.data + file.size, 0, {0}, 0};
+    const char *text = file.size ? (const char *)file.data : ""; /* an empty file has no data */
+    Reader reader = {text, text + file.size, 0, {0}, 0};
     if (file.size >= 3 && memcmp(file.data, "\xef\xbb\xbf", 3) == 0) {
         reader.at += 3;
     }
