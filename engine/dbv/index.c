@@ -163,7 +163,7 @@ bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume,
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
     size_t lists = index->due.capacity + index->disturbed.capacity + index->drawn.capacity + index->candidates.capacity;
     size_t place = 4 * sizeof(uint32_t) + sizeof(bool);
-    return sizeof *index + enf_dbv_pool_bytes(&index->pool) + index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
-           index->exposure_capacity * sizeof *index->exposures + ((size_t)index->places.count + 1) * place +
-           ((size_t)index->places.nodes_first + 1) * sizeof(EnfBox3);
+    return sizeof *index + enf_dbv_pool_bytes(&index->pool) + index->volume_capacity * sizeof *index->volumes +
+           lists * sizeof(uint32_t) + index->exposure_capacity * sizeof *index->exposures +
+           ((size_t)index->places.count + 1) * place + ((size_t)index->places.nodes_first + 1) * sizeof(EnfBox3);
 }
