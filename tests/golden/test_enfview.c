@@ -42,7 +42,7 @@ static const char *open_map(void) {
 
 /* Runs enfview; `output` (NULL: thrown away) gets what it prints on stdout. */
 static int view(const char *arguments, const char *output) {
-    char command[COMMAND_SIZE];
+    char command[3 * COMMAND_SIZE];
     snprintf(command, sizeof command, "'%s/enfview' %s > '%s' 2> /dev/null", ENF_BIN_DIR, arguments,
              output ? output : "/dev/null");
     return enf_test_shell(command);
