@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEVEL_NODES = 40000, LEVEL_HOLES = 40000, LEVEL_NAME = 48 };
+enum { LEVEL_NODES = 1024, LEVEL_HOLES = 1024, LEVEL_NAME = 48 };
 
 typedef struct LevelMesh {
     float *positions; /* nine a triangle: nothing is shared */

@@ -209,7 +209,7 @@ static void any_level_keeps_the_rules(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(1);
     uint32_t made = 0, portals = 0, codes[ENF_DIAGNOSIS_COUNT] = {0};
-    for (uint32_t round = 0; round < enf_test_rounds(250, 6000); round++) {
+    for (uint32_t round = 0; round < enf_test_rounds(250, 3000); round++) {
         Level *level = random_level(&rng);
         Built built, again;
         build(&built, level);
