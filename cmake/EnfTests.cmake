@@ -23,9 +23,13 @@ target_compile_definitions(enf_harness PUBLIC ENF_SOURCE_DIR="${PROJECT_SOURCE_D
                                               ENF_SHARED_DATA="${ENF_SHARED_DATA}")
 target_link_libraries(enf_harness PUBLIC ${CMOCKA_LIBRARY})
 
-# A test that is slow under emulation or sanitizers still ends: CTest stops it after this many seconds.
-set(ENF_TIMEOUT_FAST 180)
+# Seconds after which CTest stops a test. A suite takes some ten seconds on an idle machine, many times that where it is
+# instrumented or emulated.
+set(ENF_TIMEOUT_FAST 300)
 set(ENF_TIMEOUT_LONG 1800)
+if(ENF_SANITIZE OR CMAKE_CROSSCOMPILING)
+  set(ENF_TIMEOUT_FAST 1200)
+endif()
 
 # enf_suite(NAME FOLDER LINKS): links is none, core, gl, compile or several joined by "+", e.g. gl+compile.
 function(enf_suite name folder links)
