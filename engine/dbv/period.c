@@ -13,7 +13,7 @@
  * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). */
 #define APPROACH 0.3
 /* The first volumes, made before anything was seen, end over so many ticks. */
-#define BLIND_PERIODS 128U
+#define BLIND_PERIODS 48U
 
 /* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
  * does not expire in one (PITFALLS 23). Takes off up to a quarter. */

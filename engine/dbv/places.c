@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* A node whose longest side is at most so many times that of a volume is not split for it. */
-#define SNUG 1.0
+#define SNUG 0.9
 
 /* ---- boxes of places -------------------------------------------------------------------------------------------- */
 
@@ -265,12 +265,16 @@ static bool split(EnfDbvIndex *index, Cover *cover, uint32_t i, const EnfBox3 *b
     return true;
 }
 
-/* Is a node so near to the size of a volume that its parts would hardly cover it tighter? What hangs on fewer places costs less. */
-static bool fits(const EnfDbvIndex *index, uint32_t place, const EnfBox3 *box) {
+/* Would the parts of a node hardly cover a volume tighter, or cost more than they spare? What hangs on fewer places costs less to
+ * keep and to move; but nothing that can sleep hangs above a seen cell. */
+static bool enough(const EnfDbvIndex *index, uint32_t place, const EnfBox3 *box) {
+    if (is_seen(index, place)) {
+        return false;
+    }
     const EnfBox3 *node = place_box(&index->places, place);
     EnfVec3 a = enf_sub(node->max, node->min);
     EnfVec3 b = enf_sub(box->max, box->min);
-    return !is_seen(index, place) && larger(larger(a.x, a.y), a.z) <= SNUG * larger(larger(b.x, b.y), b.z);
+    return larger(larger(a.x, a.y), a.z) <= SNUG * larger(larger(b.x, b.y), b.z);
 }
 
 /* The place to split next: a seen one first, so that sleepers keep off it; else the coarsest (the lowest number of a tree in
@@ -394,7 +398,7 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t
     uint32_t limit = ENF_DBV_LINKS - index->volumes[object].link_count;
     for (uint32_t i = next_split(index, &cover); i != ENF_NONE; i = next_split(index, &cover)) {
         Cover before = cover;
-        if (fits(index, cover.places[i], &box) || !split(index, &cover, i, &box) || cover.count > limit) {
+        if (enough(index, cover.places[i], &box) || !split(index, &cover, i, &box) || cover.count > limit) {
             cover = before;
             cover.final[i] = true;
         }
