@@ -43,7 +43,7 @@ class Placer:
         ][::4]
         self.solids = []  # convex polygons in the plan that pieces keep out of
         self.taken = {i: [] for i in range(len(self.walls))}  # per wall: (u0, u1, z0, z1) in use
-        self.count = 0
+        self.count = self.lights = 0  # pieces and lights put so far; they number the objects
         for wall, own in zip(room.walls, self.walls):
             self._mark_openings(wall, own)
 

@@ -24,6 +24,7 @@ RUGS = {
     "cloth_white": "carpet_blue",
 }
 PORTRAITS, SCENES = (4, 5, 6, 7, 12, 14), (0, 1, 2, 3, 8, 9, 10, 11, 13, 15)
+DARK_WALLS = {"wood_panel": 1.5, "brick": 1.9, "stone_wall": 1.35}  # what swallows light is given more of it
 BRIGHTNESS = 1.8  # over the candelas below; one place to make the whole palace lighter
 WARM, CANDLE, DAY = (1.0, 0.85, 0.64), (1.0, 0.72, 0.42), (0.86, 0.93, 1.0)
 
@@ -42,8 +43,7 @@ def picture_names(p, kind, numbers):
 
 
 def light(p, at, height, candela, colour=WARM, reach=None):
-    p.lights = getattr(p, "lights", 0)
-    candela *= BRIGHTNESS
+    candela *= BRIGHTNESS * DARK_WALLS.get(p.room.wall, 1.0)
     p.scene.light(
         p.room.name, p.lights, (*at, p.room.floor + height), candela, colour, reach or 4.0 + candela**0.5 * 1.3
     )
