@@ -96,6 +96,11 @@ void enfc_print_summary(const char *level, const char *output, const EnfCompileR
 
 /* ---- json ------------------------------------------------------------------------------------------------------- */
 
+/* Seconds to the microsecond: more digits are noise. */
+static void write_seconds(EnfReport *json, const char *key, double seconds) {
+    enf_report_number(json, key, (double)(uint64_t)(seconds * 1e6 + 0.5) / 1e6);
+}
+
 static void write_counts(EnfReport *json, const EnfCompileReport *report) {
     enf_report_count(json, "cells", report->cells);
     enf_report_count(json, "portals", report->portals);
@@ -107,10 +112,10 @@ static void write_counts(EnfReport *json, const EnfCompileReport *report) {
     enf_report_count(json, "lights", report->lights);
     enf_report_count(json, "bytes", report->bytes);
     enf_report_object(json, "seconds");
-    enf_report_number(json, "import", report->seconds_import);
-    enf_report_number(json, "cells", report->seconds_cells);
-    enf_report_number(json, "kd", report->seconds_kd);
-    enf_report_number(json, "write", report->seconds_write);
+    write_seconds(json, "import", report->seconds_import);
+    write_seconds(json, "cells", report->seconds_cells);
+    write_seconds(json, "kd", report->seconds_kd);
+    write_seconds(json, "write", report->seconds_write);
     enf_report_end_object(json);
 }
 
