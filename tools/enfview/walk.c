@@ -37,6 +37,9 @@ EnfResult walk_open(Walk *walk, const Viewer *viewer, EnfError *error) {
  * through, a start), location answers. */
 static uint32_t follow(const Walk *walk, EnfVec3 to_ws) {
     const EnfMap *map = &walk->viewer->map;
+    if (!walk->path.rows[walk->next].inside) {
+        return ENF_NONE; /* the path says so: a lift had moved the eye into what is solid here */
+    }
     EnfVec3 way = enf_sub(to_ws, walk->pose.eye_ws);
     if (walk->viewer->options->cell_name) {
         return enf_map_find_cell(map, walk->viewer->options->cell_name);
