@@ -22,6 +22,12 @@ static uint32_t spread(uint32_t period, uint32_t object) {
     return period - (uint32_t)(((uint64_t)period * (hash >> 16)) >> 18);
 }
 
+/* A crowd that was made in one tick and whose periods are equal would end in one for ever: the first period is any part of it. */
+static uint32_t first_share(uint32_t period, uint32_t object) {
+    uint32_t hash = (object * UINT32_C(2654435761)) >> 8;
+    return 1U + hash % period;
+}
+
 static uint32_t clamp_period(const EnfDbvIndex *index, double ticks) {
     double most = (double)index->def.max_period_ticks;
     return ticks < 1.0 ? 1U : ticks >= most ? index->def.max_period_ticks : (uint32_t)ticks;
@@ -170,8 +176,11 @@ static bool hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
 
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     uint32_t period = choose(index, object, cause);
-    bool exact = index->def.policy == ENF_DBV_CONSTANT || index->def.policy == ENF_DBV_OPTIMAL;
-    period = exact ? period : spread(period, object);
+    if (!enf_dbv_keeps_off_seen(index) && cause == ENF_DBV_NEW) {
+        period = first_share(period, object);
+    } else if (index->def.policy == ENF_DBV_ADAPTIVE || enf_dbv_keeps_off_seen(index)) {
+        period = spread(period, object);
+    }
     enf_dbv_wheel_remove(index, object);
     bool seen = hang(index, object, period);
     bool sleeps = cause != ENF_DBV_DRAWN && enf_dbv_keeps_off_seen(index);

@@ -21,6 +21,9 @@ typedef struct BenchRow {
     uint64_t hash;
     double vis_median_us, vis_p99_us; /**< visibility alone, where median_us is the whole frame */
     double ratio_median, ratio_best;  /**< time of the baseline / time of this technique, frame by frame */
+    double max_us, ns_object;         /**< moving objects: the worst frame; the median divided by all objects */
+    double evaluated, exposed, expired, reinserted, avoided, late; /**< of an EnfDbvIndex, a frame; `late` in all */
+    double bytes_object;                                           /**< of the index */
 } BenchRow;
 
 /** A row with every optional column at -1. */

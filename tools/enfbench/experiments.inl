@@ -7,3 +7,19 @@ BENCH(compile, bench_compile, "compile time against size: grids of rooms with do
       "rooms=100,500,2000,7000 tables=1 repeat=1")
 BENCH(kd, bench_kd, "kd query with each SIMD variant against brute force over all boxes",
       "boxes=1000,10000,100000 frames=200 seed=1")
+BENCH(S1, bench_s1, "Sudarsky & Gotsman 1996, test scene 1: a small cube in a large one, update from the root or the common ancestor",
+      "rooms=4096")
+BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table", "boxes=480")
+#define MOVERS_KNOBS \
+    "rooms=1024 movers=10000 visible=0 speed=1.4 motion=free policy=all eye=walk doors=75 " \
+    "door_width=1.25 polygons=0 period=64 frames=600 seed=1 check=50 budget=20"
+BENCH(movers, bench_movers, "moving objects: finding what is seen, every policy against plain ways, at the sizes of other engines", MOVERS_KNOBS)
+BENCH(S3, bench_s3, "Sudarsky & Gotsman 1996, figure 6a: 92 movers, static polygons vary", MOVERS_KNOBS)
+BENCH(S4, bench_s4, "the same, figure 6b: four movers a room, size varies", MOVERS_KNOBS)
+BENCH(S5, bench_s5, "the same, figure 6c: 125 rooms, movers vary", MOVERS_KNOBS)
+BENCH(S6, bench_s6, "the same, section 3.2: how long volumes are valid, still and walking eye", MOVERS_KNOBS)
+BENCH(B1, bench_b1, "Paunoo 2006, scene 1: one visible mover; polygons, speed", MOVERS_KNOBS)
+BENCH(B2, bench_b2, "the same, scene 2: one visible, several hidden; polygons, number, speed", MOVERS_KNOBS)
+BENCH(B3, bench_b3, "the same, scene 3: visible and hidden; polygons, number, speed", MOVERS_KNOBS)
+BENCH(B4, bench_b4, "the same, scene 4: with static objects too; polygons, number, speed", MOVERS_KNOBS)
+#undef MOVERS_KNOBS

@@ -24,7 +24,16 @@
     X(vis_median_us)                                                                                                           \
     X(vis_p99_us)                                                                                                              \
     X(ratio_median)                                                                                                            \
-    X(ratio_best)
+    X(ratio_best)                                                                                                              \
+    X(max_us)                                                                                                                  \
+    X(ns_object)                                                                                                               \
+    X(evaluated)                                                                                                               \
+    X(exposed)                                                                                                                 \
+    X(expired)                                                                                                                 \
+    X(reinserted)                                                                                                              \
+    X(avoided)                                                                                                                 \
+    X(late)                                                                                                                    \
+    X(bytes_object)
 
 static void number(FILE *out, double value, const char *absent) {
     if (value < 0.0) {

@@ -1,0 +1,279 @@
+/* The experiments on moving objects (EXPERIMENTS S1–S6, B1–B4, and the sizes of PEERS): every technique finds the same objects in
+ * the same frames, taking turns. A frame's time is the motions evaluated, the index, the traversal; drawing is apart. */
+#include "enfbench/movers.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum Kind { KIND_INDEX, KIND_FRUSTUM, KIND_FLAT, KIND_SWEEP, KIND_NONE } Kind;
+
+/* The techniques by the names that --set techniques= takes. */
+static const struct {
+    const char *name;
+    Kind kind;
+    EnfDbvPolicy policy;
+    EnfDbvUpdate update;
+    uint32_t period; /* 0: the scene's */
+} techniques[] = {
+    {"zbuffer", KIND_NONE, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},    {"update-all", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"naive", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},   {"lca", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"flat", KIND_FLAT, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},       {"sweep", KIND_SWEEP, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"frustum", KIND_FRUSTUM, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1}, {"constant", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 0},
+    {"adaptive", KIND_INDEX, ENF_DBV_ADAPTIVE, ENF_DBV_LCA, 0},  {"maximal", KIND_INDEX, ENF_DBV_MAXIMAL, ENF_DBV_LCA, 0},
+    {"optimal", KIND_INDEX, ENF_DBV_OPTIMAL, ENF_DBV_LCA, 0},    {"reach", KIND_INDEX, ENF_DBV_REACH, ENF_DBV_LCA, 0},
+};
+enum { TECHNIQUES = sizeof techniques / sizeof *techniques };
+
+/* A technique on a scene. */
+typedef struct Runner {
+    uint32_t technique;
+    EnfWorld *world;
+    EnfDbvIndex *index;
+    Rival *rival;
+    uint32_t *all; /* zbuffer: everything */
+    double *times, spent_us;
+    double drawn, lost, missed_frames;
+    uint32_t frames;
+    uint64_t hash, evaluations; /* evaluations: when the first frame began */
+} Runner;
+
+static void close_runner(Runner *runner) {
+    enf_dbv_destroy(runner->index);
+    if (runner->world != NULL) {
+        enf_world_destroy(runner->world);
+    }
+    bench_rival_destroy(runner->rival);
+    free(runner->all);
+    free(runner->times);
+}
+
+static bool open_index(Runner *runner, const MoversScene *scene) {
+    const MoversDef *def = &scene->def;
+    EnfError error = {ENF_OK, 0, "", ""};
+    if (enf_world_create(&runner->world, scene->rooms.map, def->movers, NULL, &error) != ENF_OK) {
+        return false;
+    }
+    for (uint32_t i = 0; i < def->movers; i++) {
+        EnfObjectDef object = bench_mover_object(&scene->movers[i], techniques[runner->technique].period == 1);
+        if (enf_world_add(runner->world, &object, &error).generation == 0) {
+            return false;
+        }
+    }
+    EnfDbvDef dbv = enf_dbv_def_default();
+    dbv.policy = techniques[runner->technique].policy;
+    dbv.update = techniques[runner->technique].update;
+    dbv.period_ticks = techniques[runner->technique].period > 0 ? techniques[runner->technique].period : def->period;
+    return enf_dbv_create(&runner->index, runner->world, &dbv, NULL, &error) == ENF_OK;
+}
+
+static bool open_runner(Runner *runner, uint32_t technique, const MoversScene *scene) {
+    memset(runner, 0, sizeof *runner);
+    runner->technique = technique;
+    runner->hash = ENF_HASH_START;
+    runner->times = calloc(scene->def.frames, sizeof *runner->times);
+    bool ok = runner->times != NULL;
+    switch (techniques[technique].kind) {
+    case KIND_INDEX:
+    case KIND_FRUSTUM:
+        return ok && open_index(runner, scene);
+    case KIND_FLAT:
+    case KIND_SWEEP:
+        runner->rival = bench_rival_create(scene, techniques[technique].kind == KIND_SWEEP);
+        return ok && runner->rival != NULL;
+    case KIND_NONE:
+        runner->all = calloc(scene->def.movers + 1U, sizeof *runner->all);
+        break;
+    }
+    return ok && runner->all != NULL;
+}
+
+/* ---- a frame ---------------------------------------------------------------------------------------------------- */
+
+/* Every cell in the picture, portals unused. */
+static const uint32_t *frustum_frame(const MoversScene *scene, Runner *runner, EnfView view, uint32_t *count) {
+    view.cull = ENF_CULL_FRUSTUM;
+    view.dbv = runner->index;
+    const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &view);
+    *count = set->object_count;
+    return set->objects;
+}
+
+/* The moving objects that a technique lists. */
+static const uint32_t *find(const MoversScene *scene, Runner *runner, uint32_t frame, MoversWindows *windows, uint32_t *count) {
+    EnfView view = scene->views[frame];
+    const EnfVisSet *set = NULL;
+    switch (techniques[runner->technique].kind) {
+    case KIND_INDEX:
+        view.dbv = runner->index;
+        set = enf_vis_run(scene->vis, &scene->portals, &view);
+        *count = set->object_count;
+        return set->objects;
+    case KIND_FRUSTUM:
+        return frustum_frame(scene, runner, view, count);
+    case KIND_FLAT:
+    case KIND_SWEEP:
+        set = enf_vis_run(scene->vis, &scene->portals, &view);
+        *count = 0;
+        return bench_movers_windows(scene, set, windows)
+                   ? bench_rival_frame(runner->rival, &scene->views[frame], windows, (int64_t)frame, count)
+                   : runner->all;
+    case KIND_NONE:
+        view.cull = ENF_CULL_NONE;
+        (void)enf_vis_run(scene->vis, &scene->portals, &view);
+        break;
+    }
+    for (uint32_t i = 0; i < scene->def.movers; i++) { /* evaluated and handed on: the depth buffer does the rest */
+        EnfPose pose = bench_mover_state(&scene->movers[i], (int64_t)frame);
+        runner->all[i] = pose.position.y < 1e30 ? i : 0U;
+    }
+    *count = scene->def.movers;
+    return runner->all;
+}
+
+/* Objects that brute force finds and the list lacks. */
+static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindows *windows, const uint32_t *list, uint32_t count) {
+    uint32_t missing = 0;
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < scene->def.movers; i++) {
+        while (k < count && list[k] < i) {
+            k++;
+        }
+        bool listed = k < count && list[k] == i;
+        if (!listed) {
+            EnfPose pose = bench_mover_state(&scene->movers[i], (int64_t)frame);
+            missing += bench_movers_shown(scene, windows, bench_mover_box(&pose)) ? 1U : 0U;
+        }
+    }
+    return missing;
+}
+
+static bool turn(const MoversScene *scene, Runner *runner, uint32_t frame, MoversWindows *windows) {
+    uint32_t count = 0;
+    double start = bench_now_us();
+    const uint32_t *list = find(scene, runner, frame, windows, &count);
+    double spent = bench_now_us() - start;
+    runner->times[runner->frames++] = spent;
+    runner->spent_us += spent;
+    runner->drawn += (double)count;
+    runner->hash = enf_hash64(runner->hash, list, count * sizeof *list);
+    if (frame % scene->def.check == 0) {
+        uint32_t *copy = malloc((count + 1U) * sizeof *copy);
+        if (copy == NULL) {
+            return false;
+        }
+        memcpy(copy, list, count * sizeof *copy);
+        const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[frame]);
+        bool ok = bench_movers_windows(scene, set, windows);
+        runner->lost += ok ? (double)lost(scene, frame, windows, copy, count) : 0.0;
+        free(copy);
+        return ok;
+    }
+    return true;
+}
+
+/* ---- rows ------------------------------------------------------------------------------------------------------- */
+
+static void add_counters(const MoversScene *scene, const Runner *runner, BenchRow *row) {
+    double frames = (double)runner->frames;
+    if (runner->index == NULL) {
+        row->evaluated = (double)scene->def.movers;
+        return;
+    }
+    EnfDbvCounters counters = enf_dbv_total_counters(runner->index);
+    row->exposed = (double)counters.exposed / frames;
+    row->expired = (double)counters.expired / frames;
+    row->reinserted = (double)counters.reinserted / frames;
+    double moved = techniques[runner->technique].period == 1 && scene->def.motion != MOVERS_FREE ? row->reinserted : 0.0;
+    row->evaluated = moved + (double)(enf_world_evaluations(runner->world) - runner->evaluations) / frames;
+    row->avoided = (double)counters.avoided / frames;
+    row->nodes = (double)counters.nodes / frames;
+    row->boxes = (double)counters.tested / frames;
+    row->late = (double)counters.late;
+    row->overdraw = counters.drawn > 0 ? (double)counters.exposed / (double)counters.drawn : -1.0;
+    row->bytes_object = (double)enf_dbv_bytes(runner->index) / (double)scene->def.movers;
+}
+
+static void add_row(BenchRun *run, const char *experiment, const char *name, const MoversScene *scene, Runner *runner) {
+    static const char *const motions[] = {"free", "linear", "spline", "character"};
+    static const char *const eyes[] = {"still", "walk", "jump"};
+    const MoversDef *def = &scene->def;
+    BenchRow row = bench_row(experiment, name, techniques[runner->technique].name);
+    snprintf(row.params, sizeof row.params, "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g polygons=%u",
+             def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors,
+             def->polygons);
+    row.frames = runner->frames;
+    row.lost_objects = runner->lost;
+    row.objects = runner->drawn / (double)runner->frames;
+    row.hash = runner->hash;
+    add_counters(scene, runner, &row);
+    /* The first second is apart: everything is made anew there. */
+    uint32_t skip = runner->frames > 180 ? 120 : runner->frames / 3;
+    uint32_t rest = runner->frames - skip;
+    row.max_us = bench_quantile(runner->times + skip, rest, 1.0);
+    row.p99_us = bench_quantile(runner->times + skip, rest, 0.99);
+    row.median_us = bench_quantile(runner->times + skip, rest, 0.5);
+    row.ns_object = 1000.0 * row.median_us / (double)def->movers;
+    bench_rows_add(&run->rows, &row);
+}
+
+static bool is_chosen(const char *list, const char *name) {
+    size_t length = strlen(name);
+    for (const char *at = list; at != NULL && *at != '\0'; at = strchr(at, ',')) {
+        at += *at == ',' ? 1 : 0;
+        if (strncmp(at, name, length) == 0 && (at[length] == ',' || at[length] == '\0')) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool run_frames(BenchRun *run, const MoversScene *scene, Runner *runners, uint32_t count) {
+    MoversWindows windows = {NULL, 0, 0};
+    bool ok = true;
+    for (uint32_t f = 0; f < scene->def.frames && ok; f++) {
+        for (uint32_t i = 0; i < count && ok; i++) {
+            Runner *runner = &runners[(i + f) % count];
+            if (runner->spent_us <= 1e6 * scene->def.budget) {
+                ok = turn(scene, runner, f, &windows);
+                if (runner->world != NULL) {
+                    enf_world_advance(runner->world, 1);
+                }
+            }
+        }
+        bench_progress(run, "%u objects: frame %u of %u", scene->def.movers, f + 1, scene->def.frames);
+    }
+    free(windows.items);
+    return ok;
+}
+
+bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
+    MoversScene scene;
+    Runner runners[TECHNIQUES];
+    uint32_t count = 0;
+    if (!bench_movers_open(&scene, def)) {
+        return false;
+    }
+    bool ok = true;
+    for (uint32_t t = 0; t < TECHNIQUES && ok; t++) {
+        if (is_chosen(def->techniques, techniques[t].name)) {
+            ok = open_runner(&runners[count++], t, &scene);
+        }
+    }
+    if (ok) {
+        ok = run_frames(run, &scene, runners, count);
+    } else {
+        fprintf(stderr, "enfbench: no memory for %u objects\n", def->movers);
+    }
+    uint32_t first_row = run->rows.count;
+    for (uint32_t i = 0; i < count; i++) {
+        if (ok) {
+            add_row(run, experiment, name, &scene, &runners[i]);
+            BenchRow *rows = run->rows.rows;
+            rows[first_row + i].ratio_median = rows[first_row].median_us / rows[first_row + i].median_us;
+        }
+        close_runner(&runners[i]);
+    }
+    bench_movers_close(&scene);
+    return ok;
+}

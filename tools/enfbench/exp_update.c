@@ -1,0 +1,161 @@
+/* S1 and S2 (Sudarsky & Gotsman 1996, section 4.1): one small cube moves, and the trees are updated from the least common ancestor
+ * of its old and new places, or naively from the root. Only the update is timed; both take turns, a batch of ticks each. */
+#include "enfbench/movers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BATCH = 360, BATCHES = 60, WAYS = 2 };
+
+/* A cube's way: along x in steps of half its side, or around a point by a degree a tick. */
+typedef struct Cube {
+    EnfVec3 from;
+    double side, length; /* metres; length 0: a circle */
+} Cube;
+
+static EnfPose cube_state(const void *user, int64_t tick) {
+    const Cube *cube = user;
+    EnfPose pose = enf_pose_identity();
+    pose.position = cube->from;
+    if (cube->length > 0.0) {
+        int64_t steps = (int64_t)(cube->length / (0.5 * cube->side)) + 1;
+        int64_t at = tick % (2 * steps);
+        pose.position.x += 0.5 * cube->side * (double)(at < steps ? at : 2 * steps - at);
+    } else {
+        double angle = (double)(tick % 360) * (ENF_PI / 180.0);
+        pose.position.x += 4.0 * cube->side * enf_cos(angle);
+        pose.position.z += 4.0 * cube->side * enf_sin(angle);
+    }
+    return pose;
+}
+
+/* For a tick or two at most: where it is, and a step farther. */
+static EnfBox3 cube_bound(const void *user, const EnfBox3 *local, int64_t tick0, int64_t tick1) {
+    EnfPose a = cube_state(user, tick0);
+    EnfPose b = cube_state(user, tick1);
+    EnfBox3 first = {enf_add(a.position, local->min), enf_add(a.position, local->max)};
+    EnfBox3 last = {enf_add(b.position, local->min), enf_add(b.position, local->max)};
+    EnfBox3 both = enf_box3_union(first, last);
+    EnfVec3 margin = enf_v3(1e-6, 1e-6, 1e-6);
+    both.min = enf_sub(both.min, margin);
+    both.max = enf_add(both.max, margin);
+    return both;
+}
+
+typedef struct Way {
+    EnfWorld *world;
+    EnfDbvIndex *index;
+    double times[BATCHES];
+} Way;
+
+static bool open_way(Way *way, const EnfMap *map, const Cube *cube, EnfDbvUpdate update) {
+    EnfError error = {ENF_OK, 0, "", ""};
+    EnfObjectDef object = enf_object_def_default();
+    double h = 0.5 * cube->side;
+    object.local.min = enf_v3(-h, -h, -h);
+    object.local.max = enf_v3(h, h, h);
+    object.motion.kind = ENF_MOTION_CALLBACK;
+    object.motion.as.callback.state = cube_state;
+    object.motion.as.callback.bound = cube_bound;
+    object.motion.as.callback.user = cube;
+    EnfDbvDef def = {ENF_DBV_CONSTANT, update, 1, 1};
+    return enf_world_create(&way->world, map, 1, NULL, &error) == ENF_OK &&
+           enf_world_add(way->world, &object, &error).generation != 0 &&
+           enf_dbv_create(&way->index, way->world, &def, NULL, &error) == ENF_OK;
+}
+
+static double batch(Way *way) {
+    double start = bench_now_us();
+    for (int i = 0; i < BATCH; i++) {
+        uint32_t count = 0;
+        (void)enf_dbv_begin(way->index, NULL);
+        (void)enf_dbv_end(way->index, &count);
+        enf_world_advance(way->world, 1);
+    }
+    return (bench_now_us() - start) / BATCH;
+}
+
+static void add_rows(BenchRun *run, const char *experiment, const char *params, Way *ways) {
+    static const char *const names[WAYS] = {"naive", "lca"};
+    double first = 0.0;
+    for (int w = 0; w < WAYS; w++) {
+        EnfDbvCounters counters = enf_dbv_total_counters(ways[w].index);
+        BenchRow row = bench_row(experiment, "update", names[w]);
+        snprintf(row.params, sizeof row.params, "%s", params);
+        row.frames = BATCH * BATCHES;
+        row.nodes = (double)counters.nodes / (double)row.frames;
+        row.reinserted = (double)counters.reinserted / (double)row.frames;
+        row.late = (double)counters.late;
+        row.p99_us = bench_quantile(ways[w].times, BATCHES, 0.99);
+        row.median_us = bench_quantile(ways[w].times, BATCHES, 0.5);
+        first = w == 0 ? row.median_us : first;
+        row.ratio_median = first / row.median_us;
+        bench_rows_add(&run->rows, &row);
+    }
+}
+
+static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *def, const Cube *cube) {
+    EnfRooms rooms;
+    EnfError error = {ENF_OK, 0, "", ""};
+    Way ways[WAYS];
+    memset(ways, 0, sizeof ways);
+    if (!enf_rooms_create(&rooms, def, &error)) {
+        fprintf(stderr, "enfbench: %s\n", error.message);
+        return false;
+    }
+    bool ok = open_way(&ways[0], rooms.map, cube, ENF_DBV_NAIVE) && open_way(&ways[1], rooms.map, cube, ENF_DBV_LCA);
+    for (int b = 0; b < BATCHES && ok; b++) {
+        for (int w = 0; w < WAYS; w++) {
+            Way *way = &ways[(w + b) % WAYS];
+            way->times[b] = batch(way);
+        }
+    }
+    if (ok) {
+        char params[BENCH_TEXT];
+        snprintf(params, sizeof params, "rooms=%u boxes=%u ratio=%.0f", def->nx * def->nz, def->furniture,
+                 (double)def->nx * def->room.x / cube->side);
+        add_rows(run, experiment, params, ways);
+    }
+    for (int w = 0; w < WAYS; w++) {
+        enf_dbv_destroy(ways[w].index);
+        if (ways[w].world != NULL) {
+            enf_world_destroy(ways[w].world);
+        }
+    }
+    enf_rooms_destroy(&rooms);
+    return ok;
+}
+
+/* The large cube is a building, along whose wall the small one goes; its tree is as deep as the ratio of sizes asks. */
+bool bench_s1(BenchRun *run) {
+    uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 4096.0, 1.0, 1e6);
+    bool ok = true;
+    for (uint32_t n = 1; n * n <= most && ok; n *= 2) {
+        EnfRoomsDef def = enf_rooms_def_default();
+        def.nx = n;
+        def.nz = n;
+        def.furniture = 0;
+        def.lights = false;
+        Cube cube = {{0.75, 0.75, 0.75}, 0.5, (double)n * def.room.x - 1.5};
+        ok = compare(run, "S1", &def, &cube);
+    }
+    return ok;
+}
+
+/* One table full of things: 480 boxes of twelve triangles; the cube goes around a place on it. */
+bool bench_s2(BenchRun *run) {
+    bool ok = true;
+    uint32_t boxes = (uint32_t)bench_knob(&run->knobs, "boxes", 480.0, 0.0, 1e5);
+    for (uint32_t n = 1; n <= 8 && ok; n *= 8) {
+        EnfRoomsDef def = enf_rooms_def_default();
+        def.nx = n;
+        def.nz = n;
+        def.furniture = boxes;
+        def.lights = false;
+        Cube cube = {{1.625, 0.75, 1.625}, 0.03125, 0.0};
+        ok = compare(run, "S2", &def, &cube);
+    }
+    return ok;
+}

@@ -1,0 +1,99 @@
+/* Moving objects in a grid of rooms: the scene of every experiment on dynamic bounding volumes, and the plain ways to do without
+ * them. All techniques ask the same functions where an object is, so that they can be compared bit by bit. */
+#ifndef ENFBENCH_MOVERS_H
+#define ENFBENCH_MOVERS_H
+
+#include "enfbench/bench.h"
+#include "scenes/rooms.h"
+
+#include <enfilade/vis.h>
+
+/** LINEAR and FREE walk there and back on four points through a door; of a FREE one only the speed is told. SPLINE does so on a
+ *  smooth curve, turning; CHARACTER evaluates thirty joints besides. */
+typedef enum MoversMotion { MOVERS_FREE, MOVERS_LINEAR, MOVERS_SPLINE, MOVERS_CHARACTER } MoversMotion;
+typedef enum MoversEye { MOVERS_STILL, MOVERS_WALK, MOVERS_JUMP } MoversEye;
+
+typedef struct MoversDef {
+    uint32_t rooms, movers, frames, seed;
+    uint32_t visible; /**< objects that stay in the eye's room; the rest stay out of it. 0: spread evenly */
+    uint32_t check;   /**< every check-th frame is compared with brute force */
+    uint32_t polygons;  /**< vertices of an object that are moved on the processor when it is evaluated */
+    uint32_t furniture; /**< boxes a room */
+    uint32_t period;  /**< ticks, of `constant`; the first of `adaptive` and `optimal` */
+    double speed;     /**< metres a second, at most */
+    double doors;     /**< percent of the inner walls */
+    double door_width;
+    double budget; /**< seconds that one technique may take; then it takes no more turns */
+    MoversMotion motion;
+    MoversEye eye;
+    char techniques[BENCH_TEXT]; /**< names, separated by commas */
+} MoversDef;
+
+/** An object's motion: everything that it needs, in one place. */
+typedef struct Mover {
+    float points[4][3];
+    float speed;           /**< metres a tick, at most */
+    uint32_t phase, period; /**< ticks; there and back takes twice the period */
+    uint32_t polygons;
+    uint8_t motion;
+} Mover;
+
+/** Half the size of an object, metres. */
+#define MOVER_WIDTH 0.3
+#define MOVER_HEIGHT 0.9
+/** It may be turned: half the width of what holds it then. */
+#define MOVER_REACH 0.4375
+
+EnfVec3 bench_mover_at(const Mover *mover, int64_t tick);
+/** Position and turn, and the joints of a character; `user` is the Mover. */
+EnfPose bench_mover_state(const void *mover, int64_t tick);
+EnfBox3 bench_mover_bound(const void *user, const EnfBox3 *local, int64_t tick0, int64_t tick1);
+/** `evaluated`: its bounds are made from its whole state, as by those who move every object in every tick. */
+EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated);
+/** The object's own box at a pose: what EnfWorld answers, bit by bit. */
+EnfBox3f bench_mover_box(const EnfPose *pose);
+
+typedef struct MoversScene {
+    MoversDef def;
+    EnfRooms rooms;
+    EnfPortals portals;
+    EnfVis *vis;
+    Mover *movers;
+    EnfView *views; /**< one a frame */
+} MoversScene;
+
+bool bench_movers_open(MoversScene *scene, const MoversDef *def);
+void bench_movers_close(MoversScene *scene);
+
+/** A cell and what is seen of it; pyramids are relative to the cell. */
+typedef struct MoversWindow {
+    uint32_t cell;
+    EnfPyramid pyramid;
+} MoversWindow;
+
+typedef struct MoversWindows {
+    MoversWindow *items;
+    uint32_t count, capacity;
+} MoversWindows;
+
+/** The windows of a set's visits. False without memory. */
+bool bench_movers_windows(const MoversScene *scene, const EnfVisSet *set, MoversWindows *windows);
+/** Does an object with this box touch a window's cell and pass its pyramid? */
+bool bench_movers_shown(const MoversScene *scene, const MoversWindows *windows, EnfBox3f box);
+
+/* ---- rivals.c: without volumes ---- */
+typedef struct Rival Rival;
+Rival *bench_rival_create(const MoversScene *scene, bool sweep);
+void bench_rival_destroy(Rival *rival);
+/** Every motion evaluated; the objects that the windows show, ascending. `flat` bins them by cell and looks into the seen cells;
+ *  `sweep` tests all boxes against the picture, eight at a time, and what is left against the windows. */
+const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const MoversWindows *windows, int64_t tick,
+                                  uint32_t *count);
+
+/** Knobs that every experiment on movers has, over what `def` says. False after a message. */
+bool bench_movers_knobs(BenchRun *run, MoversDef *def);
+MoversDef bench_movers_default(void);
+/** Runs the techniques of `def` side by side and adds a row each. */
+bool bench_movers_case(BenchRun *run, const char *experiment, const char *scene_name, const MoversDef *def);
+
+#endif
