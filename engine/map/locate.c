@@ -33,6 +33,7 @@ static double cell_volume(const EnfCell *cell) {
 typedef struct Shell {
     uint32_t cell;
     bool double_sided;
+    bool guests; /* what other cells own and this one shows counts as well: walls that a neighbour was given */
     uint32_t without[THINGS_MAX], without_count; /* names of nodes: the things that the point is inside of */
 } Shell;
 
@@ -55,7 +56,7 @@ static Shell shell_of(const EnfMap *map, uint32_t cell) {
             *(material->flags & ENF_MATERIAL_DOUBLE_SIDED ? &both : &single) += cluster_area(map, &map->clusters[i]);
         }
     }
-    return (Shell){cell, both > single, {0}, 0};
+    return (Shell){cell, both > single, false, {0}, 0};
 }
 
 /* Is the node a thing in the cell, rather than what the cell is made of? Its box is less than half of the cell's. */
@@ -83,7 +84,7 @@ static bool shell_wanted(const EnfMap *map, uint32_t index, const void *user) {
             return false;
         }
     }
-    return cluster->cell == shell->cell && material->alpha_mode == ENF_ALPHA_OPAQUE &&
+    return (cluster->cell == shell->cell || shell->guests) && material->alpha_mode == ENF_ALPHA_OPAQUE &&
            (shell->double_sided || !(material->flags & ENF_MATERIAL_DOUBLE_SIDED));
 }
 
@@ -155,7 +156,7 @@ static bool within_bounds(const EnfCell *cell, EnfVec3 local) {
     return within;
 }
 
-bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
+static bool contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws, bool guests) {
     if (cell >= map->cells_count || map->cells[cell].flags & ENF_CELL_OUTSIDE || !enf_v3_finite(p_ws)) {
         return false;
     }
@@ -175,6 +176,7 @@ bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
         return false;
     }
     Shell shell = shell_of(map, cell);
+    shell.guests = guests;
     for (;;) {
         uint32_t enclosing;
         if (vote(map, &shell, p_ws, &enclosing)) {
@@ -185,6 +187,10 @@ bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
         }
         shell.without[shell.without_count++] = enclosing;
     }
+}
+
+bool enf_map_cell_contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
+    return contains(map, cell, p_ws, false);
 }
 
 /* ---- all cells -------------------------------------------------------------------------------------------------- */
@@ -202,6 +208,67 @@ static bool wins(const EnfMap *map, uint32_t a, uint32_t b) {
     return u != v ? u < v : a < b;
 }
 
+/* Walls that are boxes show fronts to both sides, and belong to one room: it seems to contain its neighbours, and they, without walls
+ * of their own, seem to contain nothing. Then rays ask what is nearest of all that the rivals show, and whose it is. */
+typedef struct Rivals {
+    Shell shells[CANDIDATES_MAX];
+    uint32_t score[CANDIDATES_MAX], count;
+} Rivals;
+
+enum { SCORE_OWN = 4, SCORE_GUEST = 1, SPREAD = 4 };
+
+/* One ray: the rivals that own the nearest surface or the opening, and those that only show it. */
+static void score_ray(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws, EnfVec3 direction) {
+    double t[CANDIDATES_MAX], nearest = HUGE_VAL;
+    bool own[CANDIDATES_MAX], front[CANDIDATES_MAX];
+    for (uint32_t i = 0; i < rivals->count; i++) {
+        const Shell *shell = &rivals->shells[i];
+        EnfRayHit hit;
+        EnfMapQuery query = {shell->cell, p_ws, direction, HUGE_VAL, shell_wanted, shell};
+        bool met = enf_map_ray_query(map, &query, &hit);
+        double before = t[i] = met ? hit.t : HUGE_VAL;
+        front[i] = met && hit.front;
+        own[i] = met && map->clusters[hit.cluster].cell == shell->cell;
+        probe_portals(map, shell->cell, enf_sub(p_ws, enf_map_origin(map, shell->cell)), direction, &t[i], &front[i]);
+        own[i] = own[i] || t[i] < before;
+        nearest = t[i] < nearest ? t[i] : nearest;
+    }
+    for (uint32_t i = 0; i < rivals->count && nearest < HUGE_VAL; i++) {
+        if (front[i] && t[i] <= nearest + ENF_TOL_ROUNDING) {
+            rivals->score[i] += own[i] ? SCORE_OWN : SCORE_GUEST;
+        }
+    }
+}
+
+/* The probes, each turned about the axes as well: the more rays, the less the shape of a room matters. */
+static void score_all(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws) {
+    for (int i = 0; i < PROBE_COUNT; i++) {
+        EnfVec3 d = probes[i];
+        const EnfVec3 spread[SPREAD] = {d, {d.y, -d.z, d.x}, {-d.z, d.x, d.y}, {-d.x, d.y, -d.z}};
+        for (int k = 0; k < SPREAD; k++) {
+            score_ray(map, rivals, p_ws, spread[k]);
+        }
+    }
+}
+
+/* `best` (or none) is what the shells say; a cell that contains the point only with its guests wins if more belongs to it. */
+static uint32_t settle(const EnfMap *map, EnfVec3 p_ws, uint32_t best, Rivals *rivals) {
+    if (best != ENF_NONE) {
+        Shell shell = shell_of(map, best);
+        shell.guests = true;
+        rivals->shells[rivals->count++] = shell;
+    }
+    score_all(map, rivals, p_ws);
+    uint32_t most = best != ENF_NONE ? rivals->score[rivals->count - 1] : 0;
+    for (uint32_t i = 0; i < rivals->count; i++) {
+        if (rivals->score[i] > most) {
+            most = rivals->score[i];
+            best = rivals->shells[i].cell;
+        }
+    }
+    return best;
+}
+
 uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
     if (!enf_v3_finite(p_ws)) {
         return ENF_NONE;
@@ -214,13 +281,17 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
     uint32_t count = enf_kd_overlap(&tree, enf_box3f_outward(point), candidates, CANDIDATES_MAX);
     const bool all = count > CANDIDATES_MAX; /* a pile of cells: ask every one */
     uint32_t best = ENF_NONE;
+    Rivals rivals = {.count = 0};
     for (uint32_t i = 0; i < (all ? map->cells_count : count); i++) {
         uint32_t cell = all ? i : candidates[i];
-        if (wins(map, cell, best) && enf_map_cell_contains(map, cell, p_ws)) {
-            best = cell;
+        if (contains(map, cell, p_ws, false)) {
+            best = wins(map, cell, best) ? cell : best;
+        } else if (rivals.count < CANDIDATES_MAX - 1 && map->cells[cell].bound_count == 0 && contains(map, cell, p_ws, true)) {
+            rivals.shells[rivals.count] = shell_of(map, cell);
+            rivals.shells[rivals.count++].guests = true;
         }
     }
-    return best;
+    return rivals.count > 0 ? settle(map, p_ws, best, &rivals) : best;
 }
 
 /* ---- by name ---------------------------------------------------------------------------------------------------- */
