@@ -334,5 +334,6 @@ void enf_layout_free(EnfLayout *layout) {
     free(layout->bound_planes);
     free(layout->roles);
     free(layout->node_cells);
+    free(layout->guests);
     memset(layout, 0, sizeof *layout);
 }

@@ -54,6 +54,11 @@ typedef struct EnfLayoutPortal {
     EnfAffine transform;
 } EnfLayoutPortal;
 
+/** A soup triangle of another cell, or of none, that closes this one: the cell's own surfaces do not, so it must show this one too. */
+typedef struct EnfLayoutGuest {
+    uint32_t triangle, cell;
+} EnfLayoutGuest;
+
 /** A cluster-to-be's extra cell is found per node or per triangle group in regions.c. */
 typedef struct EnfLayout {
     const EnfSource *source; /**< what it was made from; must outlive it */
@@ -66,7 +71,9 @@ typedef struct EnfLayout {
     EnfPlane *bound_planes;
     uint32_t bound_plane_count;
     EnfRole *roles;       /**< a source node */
-    uint32_t *node_cells; /**< a source node's cell, or ENF_NONE: loose */
+    uint32_t *node_cells;   /**< a source node's cell, or ENF_NONE: loose */
+    EnfLayoutGuest *guests; /**< ascending */
+    uint32_t guest_count;
 } EnfLayout;
 
 EnfResult enf_layout_build(EnfLayout *layout, const EnfSource *source, const EnfCompileSettings *settings,

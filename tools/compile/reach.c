@@ -368,6 +368,25 @@ static void reach_through_portals(Query *query, uint32_t first) {
     }
 }
 
+/* ---- into rooms that others close ------------------------------------------------------------------------------------------ */
+
+/* Cells that a triangle closes though it is not theirs (regions_leak.c). */
+static void reach_as_guest(Query *query, uint32_t triangle) {
+    const EnfLayout *layout = query->reach->space.layout;
+    uint32_t low = 0, high = layout->guest_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (layout->guests[middle].triangle < triangle) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    for (; low < layout->guest_count && layout->guests[low].triangle == triangle; low++) {
+        list(query->reach, layout->guests[low].cell, &query->listed);
+    }
+}
+
 /* ---- queries --------------------------------------------------------------------------------------------------------------- */
 
 static int compare_u32(const void *pa, const void *pb) {
@@ -435,6 +454,9 @@ uint32_t enf_reach_query(const EnfReach *constant, const uint32_t *triangles, ui
     uint32_t first = list(reach, cell, &query.listed) ? 1 : 0; /* home is not reached, it is home */
     reach_through_portals(&query, 0);
     uint32_t through_portals = query.listed;
+    for (uint32_t i = 0; i < triangle_count; i++) {
+        reach_as_guest(&query, triangles[i]);
+    }
     reach_through_walls(&query);
     reach_through_portals(&query, through_portals);
     uint32_t count = query.listed - first;

@@ -31,6 +31,7 @@ typedef struct Leaks {
     ENF_ARRAY(bool) closed;
     ENF_ARRAY(uint32_t) floods; /* cells without a proof */
     uint32_t *near;
+    ENF_ARRAY(EnfLayoutGuest) guests;
     EnfVoxels voxels;
     EnfVec3 seeds[SEEDS]; /* points inside, with the direction inward */
     EnfVec3 inward[SEEDS];
@@ -203,14 +204,20 @@ static bool closes(Leaks *leaks, uint32_t cell, uint32_t triangle, const EnfVec3
     return enf_shell_open_to(&leaks->space->shells, cell, enf_add(centre, enf_scale(n, JUST_INSIDE)), n);
 }
 
-static void mark_neighbours(Leaks *leaks, uint32_t cell) {
+/* Cells whose boxes meet that of `cell`, into leaks->near. */
+static uint32_t find_near(Leaks *leaks, EnfBox3 box) {
     const EnfLayout *layout = leaks->regions->layout;
-    EnfBox3 box = leaks->space->shells.cells[cell].box;
     EnfKdTree tree = enf_kd_tree(&leaks->space->tree);
     uint32_t count = enf_kd_overlap(&tree, enf_box3f_outward(box), leaks->near, layout->cell_count);
     if (leaks->space->cell_count < layout->cell_count) {
         leaks->near[count++] = leaks->space->cell_count; /* OUTSIDE */
     }
+    return count;
+}
+
+static void mark_neighbours(Leaks *leaks, uint32_t cell) {
+    EnfBox3 box = leaks->space->shells.cells[cell].box;
+    uint32_t count = find_near(leaks, box);
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t k = leaks->first[leaks->near[i]]; leaks->near[i] != cell && k < leaks->first[leaks->near[i] + 1]; k++) {
             EnfVec3 p[3];
@@ -221,6 +228,35 @@ static void mark_neighbours(Leaks *leaks, uint32_t cell) {
             }
         }
     }
+}
+
+/* What stopped the flood is seen from inside, whoever's it is. @return false if memory is out. */
+static bool invite_guests(Leaks *leaks, uint32_t cell) {
+    EnfBox3 box = leaks->space->shells.cells[cell].box;
+    uint32_t count = find_near(leaks, box);
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t k = leaks->first[leaks->near[i]]; leaks->near[i] != cell && k < leaks->first[leaks->near[i] + 1]; k++) {
+            EnfVec3 p[3];
+            enf_soup_corners(leaks->regions->soup, leaks->order[k], p);
+            EnfBox3 around = enf_box3_add(enf_box3_add(enf_box3_add(enf_box3_empty(), p[0]), p[1]), p[2]);
+            if (!enf_box3_overlaps(around, box) || !enf_voxels_meets_flood(&leaks->voxels, p)) {
+                continue;
+            }
+            if (!ENF_ARRAY_ROOM(&leaks->guests, 1)) {
+                return false;
+            }
+            leaks->guests.data[leaks->guests.count++] = (EnfLayoutGuest){leaks->order[k], cell};
+        }
+    }
+    return true;
+}
+
+static int compare_guests(const void *pa, const void *pb) {
+    const EnfLayoutGuest *a = pa, *b = pb;
+    if (a->triangle != b->triangle) {
+        return a->triangle < b->triangle ? -1 : 1;
+    }
+    return (a->cell > b->cell) - (a->cell < b->cell);
 }
 
 /* Voxels that certainly lie inside: free, a few steps in from a portal or surface, and every ray from there sees fronts. */
@@ -240,6 +276,14 @@ static uint32_t seed_voxels(Leaks *leaks, uint32_t cell, uint32_t *voxels) {
         }
     }
     return count;
+}
+
+/* Walls given to no room, or to the neighbours, may leave a room without any point that is surely inside: what its surfaces close off
+ * cannot be told, so whoever sees into it is shown everything. */
+static void report_unclosed(Leaks *leaks, uint32_t cell) {
+    leaks->regions->layout->cells[cell].flags |= ENF_CELL_OPEN;
+    enf_diagnose(leaks->regions->diagnosis, ENF_DIAGNOSIS_ROOM_LEAK, leaks->regions->layout->cells[cell].name,
+                 "its own surfaces close off nothing (are its walls under another node?): whoever sees into it is shown everything");
 }
 
 static void report(Leaks *leaks, uint32_t cell, uint32_t exit) {
@@ -285,18 +329,27 @@ static double voxel_size(const Leaks *leaks, EnfBox3 box) {
 static bool flood(Leaks *leaks, uint32_t cell, uint32_t limit) {
     EnfBox3 box = leaks->space->shells.cells[cell].box;
     if (enf_box3_is_empty(box)) {
+        report_unclosed(leaks, cell);
         return true;
     }
-    uint32_t voxels[SEEDS];
+    uint32_t voxels[SEEDS], seeds;
     if (!gather(leaks, cell, 0.0) || !enf_voxels_reset(&leaks->voxels, box, voxel_size(leaks, box), limit)) {
         return false;
     }
     mark_own(leaks);
     find_seeds(leaks, cell);
-    uint32_t exit = enf_voxels_flood(&leaks->voxels, voxels, seed_voxels(leaks, cell, voxels));
+    seeds = seed_voxels(leaks, cell, voxels);
+    if (seeds == 0) {
+        report_unclosed(leaks, cell);
+        return true;
+    }
+    uint32_t exit = enf_voxels_flood(&leaks->voxels, voxels, seeds);
     if (exit != ENF_NONE) {
         mark_neighbours(leaks, cell);
         exit = enf_voxels_flood(&leaks->voxels, voxels, seed_voxels(leaks, cell, voxels));
+        if (exit == ENF_NONE && !invite_guests(leaks, cell)) {
+            return false;
+        }
     }
     if (exit != ENF_NONE) {
         report(leaks, cell, exit);
@@ -307,7 +360,7 @@ static bool flood(Leaks *leaks, uint32_t cell, uint32_t limit) {
 static bool find_all(Leaks *leaks) {
     const EnfLayout *layout = leaks->regions->layout;
     for (uint32_t c = 0; c < leaks->space->cell_count; c++) {
-        if ((layout->cells[c].flags & ENF_CELL_OPEN) || leaks->space->shells.cells[c].count == 0) {
+        if (layout->cells[c].flags & ENF_CELL_OPEN) {
             continue;
         }
         bool proved = false;
@@ -339,6 +392,12 @@ bool enf_regions_leaks(EnfRegions *regions, EnfSpace *space) {
         leaks->regions = regions;
         leaks->space = space;
         ok = sort_triangles(leaks) && find_all(leaks);
+        if (leaks->guests.count > 0) {
+            qsort(leaks->guests.data, leaks->guests.count, sizeof *leaks->guests.data, compare_guests);
+        }
+        free(regions->layout->guests);
+        regions->layout->guests = leaks->guests.data;
+        regions->layout->guest_count = leaks->guests.count;
         free(leaks->order);
         free(leaks->first);
         free(leaks->near);

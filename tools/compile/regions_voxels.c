@@ -120,7 +120,29 @@ static int clamped(double value, int n) {
     return value < 0.0 ? 0 : value > n - 1 ? n - 1 : (int)value;
 }
 
-static void mark_column(EnfVoxels *voxels, const Flat *flat, int u, int v) {
+/* What is done at each voxel of a triangle; true stops. */
+typedef bool Visit(EnfVoxels *voxels, const int c[3]);
+
+static bool mark(EnfVoxels *voxels, const int c[3]) {
+    voxels->solid[index_of(voxels, c)] = 1;
+    return false;
+}
+
+static bool is_beside_flood(EnfVoxels *voxels, const int c[3]) {
+    for (int i = 0; i < 27; i++) {
+        const int at[3] = {c[0] + i % 3 - 1, c[1] + i / 3 % 3 - 1, c[2] + i / 9 - 1};
+        bool within = true;
+        for (int axis = 0; axis < 3; axis++) {
+            within = within && at[axis] >= 0 && at[axis] < voxels->n[axis];
+        }
+        if (within && voxels->solid[index_of(voxels, at)] == 2) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool visit_column(EnfVoxels *voxels, const Flat *flat, int u, int v, Visit *visit) {
     double middle = flat->p[0][2] + flat->slope_u * (u + 0.5 - flat->p[0][0]) + flat->slope_v * (v + 0.5 - flat->p[0][1]);
     double spread = 0.5 * (fabs(flat->slope_u) + fabs(flat->slope_v)) + MARGIN;
     double low = fmax(middle - spread, flat->low - MARGIN), high = fmin(middle + spread, flat->high + MARGIN);
@@ -128,36 +150,48 @@ static void mark_column(EnfVoxels *voxels, const Flat *flat, int u, int v) {
     c[flat->axis[0]] = u;
     c[flat->axis[1]] = v;
     if (high < 0.0 || low > n) {
-        return;
+        return false;
     }
     for (int w = clamped(floor(low), n); w <= clamped(floor(high), n); w++) {
         c[flat->axis[2]] = w;
-        voxels->solid[index_of(voxels, c)] = 1;
+        if (visit(voxels, c)) {
+            return true;
+        }
     }
+    return false;
 }
 
-void enf_voxels_mark(EnfVoxels *voxels, const EnfVec3 triangle[3]) {
+static bool visit_triangle(EnfVoxels *voxels, const EnfVec3 triangle[3], Visit *visit) {
     Flat flat;
     if (!make_flat(voxels, triangle, &flat)) {
-        return;
+        return false;
     }
     int first[2], last[2];
     for (int i = 0; i < 2; i++) {
         double low = fmin(flat.p[0][i], fmin(flat.p[1][i], flat.p[2][i])) - MARGIN;
         double high = fmax(flat.p[0][i], fmax(flat.p[1][i], flat.p[2][i])) + MARGIN;
         if (high < 0.0 || low > voxels->n[flat.axis[i]]) {
-            return;
+            return false;
         }
         first[i] = clamped(floor(low), voxels->n[flat.axis[i]]);
         last[i] = clamped(floor(high), voxels->n[flat.axis[i]]);
     }
     for (int v = first[1]; v <= last[1]; v++) {
         for (int u = first[0]; u <= last[0]; u++) {
-            if (touches(&flat, u, v)) {
-                mark_column(voxels, &flat, u, v);
+            if (touches(&flat, u, v) && visit_column(voxels, &flat, u, v, visit)) {
+                return true;
             }
         }
     }
+    return false;
+}
+
+void enf_voxels_mark(EnfVoxels *voxels, const EnfVec3 triangle[3]) {
+    visit_triangle(voxels, triangle, mark);
+}
+
+bool enf_voxels_meets_flood(EnfVoxels *voxels, const EnfVec3 triangle[3]) {
+    return visit_triangle(voxels, triangle, is_beside_flood);
 }
 
 uint32_t enf_voxels_at(const EnfVoxels *voxels, EnfVec3 p) {

@@ -18,6 +18,8 @@ typedef struct EnfVoxels {
 bool enf_voxels_reset(EnfVoxels *voxels, EnfBox3 box, double size, uint32_t limit);
 void enf_voxels_free(EnfVoxels *voxels);
 void enf_voxels_mark(EnfVoxels *voxels, const EnfVec3 triangle[3]);
+/** Is a voxel of the triangle, or one beside it, flooded? What a flood was stopped by is seen from it. */
+bool enf_voxels_meets_flood(EnfVoxels *voxels, const EnfVec3 triangle[3]);
 
 /** Voxel that holds p, or ENF_NONE outside the box. */
 uint32_t enf_voxels_at(const EnfVoxels *voxels, EnfVec3 p);
