@@ -4,6 +4,7 @@
  *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; covers, LCA
  *   wheel.c   the expiry queue
  *   period.c  how long a volume is valid (the policies)
+ *   reach.c   where an object may get that passes no wall
  *   frame.c   begin, see, end
  *   index.c   memory */
 #ifndef ENFILADE_DBV_INTERNAL_H
@@ -104,6 +105,7 @@ struct EnfDbvIndex {
     uint32_t frame;     /**< stamps; 0 never */
     uint32_t hot_frame; /**< the frame whose seen cells count as seen: the last that saw any */
     bool first;         /**< the world's objects have not been taken in yet, or memory ran out while a volume was hung */
+    bool reaches;       /**< the map's portals allow it, and the policy asks for it */
     bool failed;        /**< memory ran out in this frame: something may be missing */
     EnfDbvCounters counters, total;
 };
@@ -133,6 +135,27 @@ uint32_t enf_dbv_place_of(const EnfDbvIndex *index, uint32_t object);
 bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f box);
 /** The distance from `box` to the nearest cell seen in the last frame; below 0 if it touches one, HUGE_VAL if none was seen. */
 double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
+
+/** The cells that a box touches, if no more than a volume hangs on; else 0. */
+uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f box, uint32_t cells[ENF_DBV_LINKS]);
+/** Was a cell seen in the last frame? */
+bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell);
+/** Hangs a box on a place and counts it. Without memory, the index takes all objects in again in the next frame. */
+void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box);
+
+/* reach.c */
+/** The cells that a confined object touches until it has gone `limit` metres, and how far each is at least. */
+typedef struct EnfDbvReach {
+    uint32_t cells[ENF_DBV_LINKS], count;
+    double distances[ENF_DBV_LINKS];
+    double limit; /**< HUGE_VAL: it is shut in */
+} EnfDbvReach;
+/** Can a map's portals be walked back wherever they are walked through? Else nothing is reached but by flight. */
+bool enf_dbv_can_reach(const EnfMap *map);
+/** False where the object stands in a seen cell, in none, in too many, or at the end of its reach already. */
+bool enf_dbv_reach(EnfDbvIndex *index, EnfBox3f now, EnfDbvReach *reach);
+/** Hangs `volume`, made for a way shorter than the limit, in the cells of a reach alone. */
+void enf_dbv_hang_reach(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, EnfBox3f now, const EnfDbvReach *reach);
 
 /* wheel.c */
 void enf_dbv_wheel_create(EnfDbvWheel *wheel, int64_t now);

@@ -37,6 +37,7 @@ EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *de
     index->allocator = allocator;
     index->def = *def;
     index->first = true;
+    index->reaches = def->policy == ENF_DBV_REACH && enf_dbv_can_reach(index->map);
     index->pool.free_head = ENF_NONE;
     index->pool.bound = farthest_cell(index->map);
     enf_dbv_wheel_create(&index->wheel, enf_world_tick(world));

@@ -174,6 +174,31 @@ static bool hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
     return enf_dbv_hang(index, object, box, from);
 }
 
+/* A volume that hangs only where the object can walk to, if it lasts longer than `period`. */
+static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period) {
+    EnfDbvReach reach;
+    EnfBox3f now = bound_for(index, object, 0);
+    double speed = enf_world_max_speed(index->world, object);
+    if (!enf_dbv_reach(index, now, &reach)) {
+        return false;
+    }
+    bool ever = !(speed > 0.0) || reach.limit == HUGE_VAL;
+    uint32_t longer = ever ? index->def.max_period_ticks : clamp_period(index, 0.99 * reach.limit / speed * ENF_TICK_RATE);
+    longer = spread(longer, object);
+    double far = 1.001 * speed * (double)longer / ENF_TICK_RATE;
+    if (longer <= period || !(far < reach.limit || ever)) {
+        return false;
+    }
+    EnfDbvVolume *volume = &index->volumes[object];
+    EnfBox3f box = bound_for(index, object, longer);
+    volume->period = longer;
+    volume->expiry_tick = enf_world_tick(index->world) + (int64_t)longer;
+    enf_dbv_unhang(index, object);
+    index->counters.reinserted++;
+    enf_dbv_hang_reach(index, object, box, now, &reach);
+    return true;
+}
+
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     uint32_t period = choose(index, object, cause);
     if (!enf_dbv_keeps_off_seen(index) && cause == ENF_DBV_NEW) {
@@ -182,6 +207,11 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
         period = spread(period, object);
     }
     enf_dbv_wheel_remove(index, object);
+    bool walks = index->reaches && index->hot_frame != 0 && cause != ENF_DBV_DRAWN;
+    if (walks && enf_world_is_confined(index->world, object) && hang_reaching(index, object, period)) {
+        enf_dbv_wheel_add(index, object);
+        return;
+    }
     bool seen = hang(index, object, period);
     bool sleeps = cause != ENF_DBV_DRAWN && enf_dbv_keeps_off_seen(index);
     for (uint32_t i = 0; i < COVER_TRIES && seen && sleeps && period > DRAWN_PERIOD; i++) {

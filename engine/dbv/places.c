@@ -176,7 +176,7 @@ static void count_below(EnfDbvPlaces *places, uint32_t place, bool in) {
     }
 }
 
-static void link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
+void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
     if (enf_dbv_link(index, object, place, box)) {
         count_below(&index->places, place, true);
     } else {
@@ -378,7 +378,7 @@ static void cover_outside(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) 
     bool outside = map->cells_count > 0 && (map->cells[last].flags & ENF_CELL_OUTSIDE) != 0;
     EnfBox3 box = enf_box3_from_f(volume);
     if (outside && touches(place_box(&index->places, index->places.cells_first + last), &box)) {
-        link_to(index, object, index->places.cells_first + last, volume);
+        enf_dbv_link_to(index, object, index->places.cells_first + last, volume);
     }
 }
 
@@ -411,25 +411,47 @@ bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t
         if (outer >= places->cells_first) {
             place = descend(index, outer - places->cells_first, place, &box);
         }
-        link_to(index, object, place, volume);
+        enf_dbv_link_to(index, object, place, volume);
     }
     return seen;
 }
 
 /* ---- seen cells ------------------------------------------------------------------------------------------------- */
 
-bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f volume) {
-    const EnfMap *map = index->map;
-    EnfBox3 box = enf_box3_from_f(volume);
-    Cover cover = {{0}, map->cell_nodes_count > 0 ? 1U : 0U, {false}};
-    for (uint32_t i = 0; i < cover.count; i++) {
-        while (i < cover.count && cover.places[i] < index->places.cells_first) {
-            if (!split(index, &cover, i, &box)) {
+bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell) {
+    return is_seen(index, index->places.cells_first + cell);
+}
+
+/* Splits down to cells alone. False if they are too many. */
+static bool split_to_cells(EnfDbvIndex *index, const EnfBox3 *box, Cover *cover) {
+    cover->places[0] = 0;
+    cover->count = index->map->cell_nodes_count > 0 ? 1U : 0U;
+    for (uint32_t i = 0; i < cover->count; i++) {
+        while (i < cover->count && cover->places[i] < index->places.cells_first) {
+            if (!split(index, cover, i, box)) {
                 return false;
             }
         }
     }
     return true;
+}
+
+bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f volume) {
+    EnfBox3 box = enf_box3_from_f(volume);
+    Cover cover;
+    return split_to_cells(index, &box, &cover);
+}
+
+uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f volume, uint32_t cells[ENF_DBV_LINKS]) {
+    EnfBox3 box = enf_box3_from_f(volume);
+    Cover cover;
+    if (!split_to_cells(index, &box, &cover)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < cover.count; i++) {
+        cells[i] = cover.places[i] - index->places.cells_first;
+    }
+    return cover.count;
 }
 
 /* The squared distance between two boxes; below 0 where they touch as enf_world_touches has it. */

@@ -271,6 +271,10 @@ EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until) {
     return enf_box3f_outward(enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until));
 }
 
+bool enf_world_is_confined(const EnfWorld *world, uint32_t index) {
+    return enf_world_is_free(world, index) && world->motions[index].as.free.confined;
+}
+
 void enf_world_prefetch(const EnfWorld *world, uint32_t index) {
 #if defined(__GNUC__)
     const char *motion = (const char *)&world->motions[index];

@@ -10,12 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { OBJECTS = 300, KEYS = 6, VARIANTS = 5 };
+enum { OBJECTS = 300, KEYS = 6, VARIANTS = 6, POINTS = 4 };
 
 static const EnfDbvDef variants[VARIANTS] = {
     {ENF_DBV_CONSTANT, ENF_DBV_LCA, 7, 1U << 30}, {ENF_DBV_ADAPTIVE, ENF_DBV_NAIVE, 4, 1U << 30},
     {ENF_DBV_MAXIMAL, ENF_DBV_LCA, 16, 1U << 30}, {ENF_DBV_OPTIMAL, ENF_DBV_LCA, 8, 1U << 30},
-    {ENF_DBV_MAXIMAL, ENF_DBV_NAIVE, 16, 500},
+    {ENF_DBV_MAXIMAL, ENF_DBV_NAIVE, 16, 500},    {ENF_DBV_REACH, ENF_DBV_LCA, 16, 1U << 30},
 };
 
 /* An object's own arrays. */
@@ -24,6 +24,9 @@ typedef struct Mover {
     float times[KEYS], values[KEYS * 3];
     EnfVec3 centre; /* of a free one's circle */
     double turn;
+    EnfVec3 points[POINTS]; /* of a confined one's way there and back through a door */
+    int64_t leg_ticks;
+    bool small; /* its box fits through doors */
 } Mover;
 
 typedef struct Stage {
@@ -78,6 +81,62 @@ static EnfPose on_circle(const void *user, int64_t tick) {
     return pose;
 }
 
+/* A confined object goes straight from point to point, a leg in equal ticks. */
+static EnfPose on_way(const void *user, int64_t tick) {
+    const Mover *mover = user;
+    int64_t once = (POINTS - 1) * mover->leg_ticks;
+    int64_t at = tick % (2 * once);
+    at = at > once ? 2 * once - at : at;
+    int64_t leg = at / mover->leg_ticks < POINTS - 1 ? at / mover->leg_ticks : POINTS - 2;
+    double share = (double)(at - leg * mover->leg_ticks) / (double)mover->leg_ticks;
+    EnfVec3 a = mover->points[leg];
+    EnfVec3 b = mover->points[leg + 1];
+    EnfPose pose = enf_pose_identity();
+    pose.position = enf_add(a, enf_scale(enf_sub(b, a), share));
+    return pose;
+}
+
+static EnfVec3 random_in_room(const Stage *stage, EnfTestRng *rng, uint32_t cell) {
+    EnfBox3 box = enf_rooms_box(&stage->rooms, cell);
+    return enf_v3(enf_test_double(rng, box.min.x + 0.5, box.max.x - 0.5), 1.0,
+                  enf_test_double(rng, box.min.z + 0.5, box.max.z - 0.5));
+}
+
+/* From a room through the middle of a door into the next, or only about the room. It is 0.4 m wide at most: it touches no wall. */
+static void make_way(const Stage *stage, EnfTestRng *rng, Mover *mover, EnfFreeMotion *free) {
+    const EnfMap *map = stage->rooms.map;
+    uint32_t cell = enf_test_below(rng, map->cells_count);
+    const EnfCell *c = &map->cells[cell];
+    for (int i = 0; i < POINTS; i++) {
+        mover->points[i] = random_in_room(stage, rng, cell);
+    }
+    if (c->portal_count > 0) {
+        const EnfPortal *portal = &map->portals[c->portal_first + enf_test_below(rng, c->portal_count)];
+        EnfVec3 middle = enf_v3(c->origin[0], 0.0, c->origin[2]);
+        for (uint32_t v = 0; v < portal->vertex_count; v++) {
+            EnfVec3 p = enf_v3_from_f(map->portal_vertices[portal->vertex_first + v]);
+            middle = enf_add(middle, enf_scale(enf_v3(p.x, 0.0, p.z), 1.0 / (double)portal->vertex_count));
+        }
+        EnfVec3 to = random_in_room(stage, rng, portal->target);
+        EnfVec3 box = enf_rooms_box(&stage->rooms, cell).min;
+        EnfVec3 next = enf_rooms_box(&stage->rooms, portal->target).min;
+        EnfVec3 out = enf_scale(enf_sub(next, box), 0.5 / enf_length(enf_sub(next, box)));
+        middle.y = 1.0;
+        mover->points[1] = enf_sub(middle, out);
+        mover->points[2] = enf_add(middle, out);
+        mover->points[3] = to;
+    }
+    double longest = 0.1;
+    for (int i = 0; i + 1 < POINTS; i++) {
+        longest = fmax(longest, enf_length(enf_sub(mover->points[i + 1], mover->points[i])));
+    }
+    mover->leg_ticks = (int64_t)(longest * ENF_TICK_RATE) + 1;
+    free->max_speed = 1.02;
+    free->ask = on_way;
+    free->user = mover;
+    free->confined = true;
+}
+
 static void make_path(EnfTestRng *rng, Mover *mover, EnfPathMotion *path) {
     path->rest = enf_pose_identity();
     path->wrap = (EnfWrap)enf_test_below(rng, 3);
@@ -94,14 +153,15 @@ static void make_path(EnfTestRng *rng, Mover *mover, EnfPathMotion *path) {
     path->period_ticks = 60 + enf_test_below(rng, 1200);
 }
 
-static EnfObjectDef random_object(EnfTestRng *rng, Mover *mover, int64_t tick) {
+static EnfObjectDef random_object(const Stage *stage, EnfTestRng *rng, Mover *mover) {
     EnfObjectDef def = enf_object_def_default();
+    int64_t tick = enf_world_tick(stage->world);
     double size = enf_test_chance(rng, 20) ? enf_test_double(rng, 1.0, 40.0) : enf_test_double(rng, 0.001, 0.6);
     def.local.min = enf_v3(-size, -0.5 * size, -size);
     def.local.max = enf_v3(size, size, 0.5 * size);
     mover->centre = random_place(rng);
     mover->turn = enf_test_double(rng, 0.0, 6.0);
-    switch (enf_test_below(rng, 4)) {
+    switch (enf_test_below(rng, 5)) {
     case 0:
         def.motion.kind = ENF_MOTION_PATH;
         make_path(rng, mover, &def.motion.as.path);
@@ -123,6 +183,12 @@ static EnfObjectDef random_object(EnfTestRng *rng, Mover *mover, int64_t tick) {
         def.motion.as.swing.high = 1.5;
         def.motion.as.swing.rate = 2.0;
         break;
+    case 3:
+        def.motion.kind = ENF_MOTION_FREE;
+        make_way(stage, rng, mover, &def.motion.as.free);
+        def.local.min = enf_v3(-0.2, -0.5, -0.2);
+        def.local.max = enf_v3(0.2, 0.5, 0.2);
+        break;
     default:
         def.motion.as.still.position = mover->centre;
         break;
@@ -131,13 +197,16 @@ static EnfObjectDef random_object(EnfTestRng *rng, Mover *mover, int64_t tick) {
 }
 
 static void spawn(Stage *stage, EnfTestRng *rng, uint32_t i) {
-    EnfObjectDef def = random_object(rng, &stage->movers[i], enf_world_tick(stage->world));
+    EnfObjectDef def = random_object(stage, rng, &stage->movers[i]);
+    stage->movers[i].small = def.motion.kind == ENF_MOTION_FREE && def.motion.as.free.confined;
     stage->movers[i].id = enf_world_add(stage->world, &def, NULL);
     assert_int_not_equal(stage->movers[i].id.generation, 0);
 }
 
-/* A few events a tick: doors, teleports, deaths and births. */
+/* A few events a tick: portals that open and close, doors that move, teleports, deaths and births. */
 static void disturb(Stage *stage, EnfTestRng *rng) {
+    uint32_t portal = enf_test_below(rng, stage->portals.count);
+    enf_portals_set_open(&stage->portals, portal, enf_test_chance(rng, 2));
     for (uint32_t e = enf_test_below(rng, 4); e > 0; e--) {
         uint32_t i = enf_test_below(rng, OBJECTS);
         Mover *mover = &stage->movers[i];
@@ -147,7 +216,10 @@ static void disturb(Stage *stage, EnfTestRng *rng) {
             assert_false(enf_world_alive(stage->world, dead));
             spawn(stage, rng, i);
         } else {
-            EnfObjectDef def = random_object(rng, mover, enf_world_tick(stage->world));
+            EnfObjectDef def = random_object(stage, rng, mover);
+            if (def.motion.kind == ENF_MOTION_FREE) { /* it keeps its old size */
+                def.motion.as.free.confined = def.motion.as.free.confined && mover->small;
+            }
             assert_true(enf_world_set_motion(stage->world, mover->id, &def.motion));
             bool door = def.motion.kind == ENF_MOTION_HINGE || def.motion.kind == ENF_MOTION_SLIDE;
             assert_true(!door || enf_world_swing(stage->world, mover->id, enf_test_double(rng, 0.0, 1.5)));

@@ -171,6 +171,7 @@ EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated) {
         def.motion.as.free.max_speed = def.max_speed;
         def.motion.as.free.ask = bench_mover_state;
         def.motion.as.free.user = mover;
+        def.motion.as.free.confined = true; /* through doors alone */
     } else {
         def.motion.kind = ENF_MOTION_CALLBACK;
         def.motion.as.callback.state = bench_mover_state;

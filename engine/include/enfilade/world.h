@@ -96,6 +96,9 @@ typedef struct EnfFreeMotion {
     double max_speed;                               /**< metres a second, of any point of the object, turning included */
     EnfPose (*ask)(const void *user, int64_t tick); /**< where it is now (a simulation, a server), or NULL: it is pushed */
     const void *user;
+    /** It passes no wall and keeps its size: its box comes to touch a cell (enf_world_touches) only by touching a portal that
+     *  leads there from a cell touched before. A promise of the caller; with it volumes need not leak through walls. */
+    bool confined;
 } EnfFreeMotion;
 
 /** A motion of the caller's. Both functions are pure in (user, ticks). */
@@ -198,6 +201,8 @@ EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until);
 double enf_world_max_speed(const EnfWorld *world, uint32_t index);
 /** Is its motion FREE: nothing known but a largest speed? */
 bool enf_world_is_free(const EnfWorld *world, uint32_t index);
+/** Is it FREE, and confined by walls? */
+bool enf_world_is_confined(const EnfWorld *world, uint32_t index);
 /** Asks the processor for what the three above will read of an object: a hint for those who know what they will ask next. */
 void enf_world_prefetch(const EnfWorld *world, uint32_t index);
 /** Motions evaluated since the world was made. */

@@ -1,0 +1,135 @@
+/* How far a confined object may get: it passes no wall, so that it comes into a cell only through the portals of the cells that it
+ * touched before. A flood from where it stands, nearest portal first (Dijkstra 1959), ends at the first portal that leads into a
+ * seen cell, or when the cells are more than a volume hangs on. Until the object can have come as far as that portal it is in none
+ * but the cells found, and its volume hangs in these alone: it does not leak through the walls between (DESIGN §5).
+ *
+ * Closed portals count as open: a door may be opened at any tick, and what it guards must not be missed then (PITFALLS 24). A
+ * portal's distance is that from the object's own box, and not less than that of the portals before it; nothing is added up along
+ * the way, as a long object may stand in two doors at once. */
+#include "dbv/dbv_internal.h"
+
+#include <enfilade/tolerances.h>
+
+#include <math.h>
+#include <string.h>
+
+static EnfBox3 portal_box(const EnfMap *map, const EnfPortal *portal) {
+    const double *o = map->cells[portal->source].origin;
+    EnfVec3 origin = enf_v3(o[0], o[1], o[2]);
+    EnfBox3 box = enf_box3_empty();
+    for (uint32_t v = 0; v < portal->vertex_count; v++) {
+        box = enf_box3_add(box, enf_add(origin, enf_v3_from_f(map->portal_vertices[portal->vertex_first + v])));
+    }
+    return box;
+}
+
+static double apart(double low, double high, double other_low, double other_high) {
+    double d = low > other_high ? low - other_high : other_low - high;
+    return d > 0.0 ? d : 0.0;
+}
+
+static double distance(const EnfBox3 *a, const EnfBox3 *b) {
+    double x = apart(a->min.x, a->max.x, b->min.x, b->max.x);
+    double y = apart(a->min.y, a->max.y, b->min.y, b->max.y);
+    double z = apart(a->min.z, a->max.z, b->min.z, b->max.z);
+    return sqrt(x * x + y * y + z * z);
+}
+
+static bool is_found(const EnfDbvReach *reach, uint32_t cell) {
+    for (uint32_t i = 0; i < reach->count; i++) {
+        if (reach->cells[i] == cell) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The nearest portal out of the cells found: its distance, or HUGE_VAL. */
+static double nearest_portal(const EnfMap *map, const EnfDbvReach *reach, const EnfBox3 *now, const EnfPortal **nearest) {
+    double best = HUGE_VAL;
+    for (uint32_t i = 0; i < reach->count; i++) {
+        const EnfCell *cell = &map->cells[reach->cells[i]];
+        for (uint32_t p = cell->portal_first; p < cell->portal_first + cell->portal_count; p++) {
+            const EnfPortal *portal = &map->portals[p];
+            if (portal->transform == ENF_NONE && is_found(reach, portal->target)) {
+                continue;
+            }
+            double d = 0.0; /* cells that overlap are entered anywhere */
+            if (portal->vertex_count > 0) {
+                EnfBox3 box = portal_box(map, portal);
+                d = distance(now, &box);
+            }
+            d = d > reach->distances[i] ? d : reach->distances[i];
+            if (d < best) {
+                best = d;
+                *nearest = portal;
+            }
+        }
+    }
+    return best;
+}
+
+bool enf_dbv_can_reach(const EnfMap *map) {
+    for (uint32_t p = 0; p < map->portals_count; p++) {
+        if (map->portals[p].twin == ENF_NONE && map->portals[p].transform == ENF_NONE) {
+            return false; /* who came through could go back unheard of */
+        }
+    }
+    return true;
+}
+
+bool enf_dbv_reach(EnfDbvIndex *index, EnfBox3f now, EnfDbvReach *reach) {
+    const EnfMap *map = index->map;
+    EnfBox3 box = enf_box3_from_f(now);
+    reach->count = enf_dbv_cells_of(index, now, reach->cells);
+    memset(reach->distances, 0, sizeof reach->distances);
+    reach->limit = HUGE_VAL;
+    for (uint32_t i = 0; i < reach->count; i++) {
+        bool outside = (map->cells[reach->cells[i]].flags & ENF_CELL_OUTSIDE) != 0;
+        if (outside || enf_dbv_cell_is_seen(index, reach->cells[i])) {
+            return false;
+        }
+    }
+    if (reach->count == 0) {
+        return false;
+    }
+    for (;;) {
+        const EnfPortal *portal = NULL;
+        double d = nearest_portal(map, reach, &box, &portal);
+        if (portal == NULL) {
+            return true; /* shut in */
+        }
+        bool ends = portal->transform != ENF_NONE || reach->count == ENF_DBV_LINKS ||
+                    enf_dbv_cell_is_seen(index, portal->target) || (map->cells[portal->target].flags & ENF_CELL_OUTSIDE) != 0;
+        if (ends) {
+            reach->limit = d;
+            return d > 0.0;
+        }
+        reach->distances[reach->count] = d;
+        reach->cells[reach->count++] = portal->target;
+    }
+}
+
+/* All of an object's box, while it touches a cell, lies no farther from that cell than the box is long. */
+static EnfBox3f part(EnfBox3 volume, const EnfBox3 *cell, double size) {
+    EnfBox3 out = {enf_v3(fmax(volume.min.x, cell->min.x - size), fmax(volume.min.y, cell->min.y - size),
+                          fmax(volume.min.z, cell->min.z - size)),
+                   enf_v3(fmin(volume.max.x, cell->max.x + size), fmin(volume.max.y, cell->max.y + size),
+                          fmin(volume.max.z, cell->max.z + size))};
+    return enf_box3f_outward(out);
+}
+
+void enf_dbv_hang_reach(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, EnfBox3f now, const EnfDbvReach *reach) {
+    EnfBox3 here = enf_box3_from_f(now);
+    EnfBox3 whole = enf_box3_from_f(volume);
+    /* However it turns, no side of its box is longer than the diagonal of its box now, which holds two opposite corners. */
+    double size = enf_length(enf_sub(here.max, here.min)) + 2.0 * ENF_GRID_STEP;
+    for (uint32_t i = 0; i < reach->count; i++) {
+        uint32_t place = index->places.cells_first + reach->cells[i];
+        EnfBox3f box = part(whole, &index->places.boxes[place], size);
+        bool near = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
+        if (near && enf_world_touches(index->map, reach->cells[i], box)) {
+            enf_dbv_link_to(index, object, place, box);
+        }
+    }
+}
