@@ -251,15 +251,20 @@ static void score_all(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws) {
     }
 }
 
-/* `best` (or none) is what the shells say; a cell that contains the point only with its guests wins if more belongs to it. */
-static uint32_t settle(const EnfMap *map, EnfVec3 p_ws, uint32_t best, Rivals *rivals) {
-    if (best != ENF_NONE) {
-        Shell shell = shell_of(map, best);
-        shell.guests = true;
-        rivals->shells[rivals->count++] = shell;
+static void add_rival(const EnfMap *map, Rivals *rivals, uint32_t cell) {
+    if (rivals->count < CANDIDATES_MAX) {
+        rivals->shells[rivals->count] = shell_of(map, cell);
+        rivals->shells[rivals->count++].guests = true;
     }
+}
+
+/* `best` (or none) is what the shells say; of the others, one wins to which more belongs of what is near. */
+static uint32_t settle(const EnfMap *map, EnfVec3 p_ws, uint32_t best, Rivals *rivals) {
     score_all(map, rivals, p_ws);
-    uint32_t most = best != ENF_NONE ? rivals->score[rivals->count - 1] : 0;
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < rivals->count; i++) {
+        most = rivals->shells[i].cell == best ? rivals->score[i] : most;
+    }
     for (uint32_t i = 0; i < rivals->count; i++) {
         if (rivals->score[i] > most) {
             most = rivals->score[i];
@@ -285,13 +290,20 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
     for (uint32_t i = 0; i < (all ? map->cells_count : count); i++) {
         uint32_t cell = all ? i : candidates[i];
         if (contains(map, cell, p_ws, false)) {
-            best = wins(map, cell, best) ? cell : best;
-        } else if (rivals.count < CANDIDATES_MAX - 1 && map->cells[cell].bound_count == 0 && contains(map, cell, p_ws, true)) {
-            rivals.shells[rivals.count] = shell_of(map, cell);
-            rivals.shells[rivals.count++].guests = true;
+            bool outranked = best != ENF_NONE && map->cells[best].priority > map->cells[cell].priority;
+            if (best != ENF_NONE && map->cells[best].priority < map->cells[cell].priority) {
+                rivals.count = 0;
+            }
+            if (!outranked) {
+                best = wins(map, cell, best) ? cell : best;
+                add_rival(map, &rivals, cell);
+            }
+        } else if (map->cells[cell].bound_count == 0 && contains(map, cell, p_ws, true)) {
+            add_rival(map, &rivals, cell);
         }
     }
-    return rivals.count > 0 ? settle(map, p_ws, best, &rivals) : best;
+    bool agreed = rivals.count <= 1 && (rivals.count == 0 || rivals.shells[0].cell == best);
+    return agreed || (best != ENF_NONE && map->cells[best].bound_count > 0) ? best : settle(map, p_ws, best, &rivals);
 }
 
 /* ---- by name ---------------------------------------------------------------------------------------------------- */
