@@ -2,8 +2,10 @@
  *
  * It reaches through a portal if it crosses the portal's polygon, or lies in it like a shut door; and from there through the next. It
  * reaches through a wall if a corner lies inside another cell's shell, or if one who stands just in front of it does (behind it too,
- * where it is two-sided): so a floor that runs on under a door is found, and two rooms that share a wall without thickness are not
- * disturbed. Boxes and slabs reject nearly every pair before a ray is cast. */
+ * where it is two-sided): so a floor that runs on under a door is found. And it touches a cell from behind a wall without thickness
+ * if an edge lies on that wall and the surface faces who stands beyond it: along such an edge (the foot of the wall, to the floor
+ * of the next room) depths are equal, and rounding alone would decide what a pixel shows (PITFALLS 33). Boxes and slabs reject nearly
+ * every pair before a ray is cast. */
 #include "compile/regions.h"
 
 #include <enfilade/geom.h>
@@ -387,6 +389,64 @@ static void reach_as_guest(Query *query, uint32_t triangle) {
     }
 }
 
+/* ---- by contact ------------------------------------------------------------------------------------------------------------- */
+
+/* Is p on an opening of the cell, or on its rim? Through those, windows show what is beyond. */
+static bool on_gate(const EnfReach *reach, uint32_t cell, EnfVec3 p) {
+    EnfBox3 point = grown((EnfBox3){p, p}, SURFACE);
+    for (uint32_t g = reach->space.portal_first[cell]; g < reach->space.portal_first[cell + 1]; g++) {
+        const Gate *gate = &reach->gates[g];
+        double d = enf_dot(gate->normal, p) + gate->d;
+        if (gate->walkable && d > -SURFACE && d < SURFACE && enf_box3_overlaps(gate->box, point)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Does the cell begin at point p of an edge: is it inside, a little before the surface and beyond the edge? */
+static bool begins_at(EnfReach *reach, uint32_t cell, EnfVec3 p, EnfVec3 beyond, EnfVec3 front) {
+    EnfVec3 q = enf_add(p, enf_scale(enf_add(beyond, front), IN_FRONT));
+    EnfShells *shells = &reach->space.shells;
+    return enf_shell_near(&shells->cells[cell], &q, 1, SURFACE) && !on_gate(reach, cell, p) &&
+           enf_shell_inside(shells, cell, q, SURFACE, false);
+}
+
+/* Looks along the edges of a triangle, a point a PIECE. */
+static bool touches_from_behind(EnfReach *reach, const Sheet *sheet, uint32_t cell) {
+    for (int k = 0; k < 3; k++) {
+        EnfVec3 a = sheet->p[k], along = enf_sub(sheet->p[(k + 1) % 3], a);
+        double length = enf_length(along);
+        EnfVec3 beyond = enf_normalize(enf_cross(along, sheet->normal));
+        uint32_t points = length < 64.0 * PIECE ? 1 + (uint32_t)(length / PIECE) : 64;
+        for (uint32_t i = 0; i < points; i++) {
+            EnfVec3 p = enf_add(a, enf_scale(along, ((double)i + 0.5) / points));
+            if (begins_at(reach, cell, p, beyond, sheet->normal) ||
+                (sheet->both && begins_at(reach, cell, p, beyond, enf_scale(sheet->normal, -1.0)))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void reach_by_contact(Query *query) {
+    EnfReach *reach = query->reach;
+    EnfKdTree tree = enf_kd_tree(&reach->space.tree);
+    EnfBox3f box = enf_box3f_outward(grown(query->box, 2.0 * IN_FRONT));
+    uint32_t found = enf_kd_overlap(&tree, box, reach->near, reach->space.cell_count);
+    for (uint32_t i = 0; i < found; i++) {
+        uint32_t cell = reach->near[i];
+        const EnfShell *shell = &reach->space.shells.cells[cell];
+        for (uint32_t k = 0; k < query->count && !is_listed(reach, cell); k++) {
+            EnfBox3 around = grown(query->sheets[k].box, 2.0 * IN_FRONT);
+            if (enf_shell_near_box(shell, around, SURFACE) && touches_from_behind(reach, &query->sheets[k], cell)) {
+                list(reach, cell, &query->listed);
+            }
+        }
+    }
+}
+
 /* ---- queries --------------------------------------------------------------------------------------------------------------- */
 
 static int compare_u32(const void *pa, const void *pb) {
@@ -459,6 +519,7 @@ uint32_t enf_reach_query(const EnfReach *constant, const uint32_t *triangles, ui
     }
     reach_through_walls(&query);
     reach_through_portals(&query, through_portals);
+    reach_by_contact(&query);
     uint32_t count = query.listed - first;
     qsort(&reach->cells[first], count, sizeof *reach->cells, compare_u32);
     uint32_t given = count < capacity ? count : capacity;
