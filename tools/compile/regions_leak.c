@@ -347,9 +347,9 @@ static bool flood(Leaks *leaks, uint32_t cell, uint32_t limit) {
     if (exit != ENF_NONE) {
         mark_neighbours(leaks, cell);
         exit = enf_voxels_flood(&leaks->voxels, voxels, seed_voxels(leaks, cell, voxels));
-        if (exit == ENF_NONE && !invite_guests(leaks, cell)) {
-            return false;
-        }
+    }
+    if (exit == ENF_NONE && !invite_guests(leaks, cell)) {
+        return false;
     }
     if (exit != ENF_NONE) {
         report(leaks, cell, exit);
