@@ -251,6 +251,12 @@ static void score_all(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws) {
     }
 }
 
+/* With its guests; an open cell, whose walls nobody knows, wherever its box does. */
+static bool could_contain(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
+    bool open = (map->cells[cell].flags & ENF_CELL_OPEN) != 0;
+    return (open && within_bounds(&map->cells[cell], enf_sub(p_ws, enf_map_origin(map, cell)))) || contains(map, cell, p_ws, true);
+}
+
 static void add_rival(const EnfMap *map, Rivals *rivals, uint32_t cell) {
     if (rivals->count < CANDIDATES_MAX) {
         rivals->shells[rivals->count] = shell_of(map, cell);
@@ -298,7 +304,7 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
                 best = wins(map, cell, best) ? cell : best;
                 add_rival(map, &rivals, cell);
             }
-        } else if (map->cells[cell].bound_count == 0 && contains(map, cell, p_ws, true)) {
+        } else if (map->cells[cell].bound_count == 0 && could_contain(map, cell, p_ws)) {
             add_rival(map, &rivals, cell);
         }
     }

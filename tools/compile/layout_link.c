@@ -74,9 +74,19 @@ static uint32_t nearest_room(const EnfLayoutWork *work, const EnfOpening *openin
     return best;
 }
 
+/* `Hall-room` means a node `Hall_room` too, and `Hall-room.001`. */
+static size_t length_without_room(const char *text, size_t length) {
+    bool suffixed = length > 5 && (text[length - 5] == '-' || text[length - 5] == '_') &&
+                    enf_name_compare(text + length - 4, 4, "room", 4, true) == 0;
+    return suffixed ? length - 5 : length;
+}
+
 static uint32_t find_room(const EnfLayoutWork *work, const EnfOpening *opening, const char *text, size_t length) {
     uint32_t cells[CANDIDATES];
     uint32_t count = enf_layout_find_rooms(work, text, length, cells, CANDIDATES);
+    if (count == 0) {
+        count = enf_layout_find_rooms(work, text, length_without_room(text, length), cells, CANDIDATES);
+    }
     return nearest_room(work, opening, cells, count);
 }
 
