@@ -111,6 +111,7 @@ static uint32_t intern(Builder *builder, const EnfVertex *vertex) {
     uint32_t slot = (uint32_t)(hash ^ hash >> 32) % TABLE_SIZE;
     while (builder->table[slot] != 0) {
         uint32_t found = builder->table[slot] - 1u;
+        /* Bits, as they are hashed. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison) */
         if (memcmp(&builder->local[found], vertex, sizeof *vertex) == 0) {
             return found;
         }

@@ -282,8 +282,8 @@ static void place_label(EnfPlanOutline *outline) {
     int steps = (int)sqrt(LABEL_WORK / (double)outline->points.count);
     steps = steps < 4 ? 4 : steps > 20 ? 20 : steps;
     for (int i = 0; i < steps * steps; i++) {
-        EnfPlanPoint p = {low.x + (high.x - low.x) * (i % steps + 0.5) / steps,
-                          low.z + (high.z - low.z) * (i / steps + 0.5) / steps};
+        int column = i % steps, row = i / steps;
+        EnfPlanPoint p = {low.x + (high.x - low.x) * (column + 0.5) / steps, low.z + (high.z - low.z) * (row + 0.5) / steps};
         double clear = clearance(outline, p);
         if (clear > best) {
             best = clear;

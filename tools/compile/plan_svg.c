@@ -379,8 +379,8 @@ static void put_head(Plan *plan, const char *title, uint32_t cells, uint32_t por
 /* The longest of 1, 2, 5 × 10ⁿ metres that takes at most 220 pixels. */
 static double scale_bar(double scale) {
     static const double steps[] = {1, 2, 5};
-    double best = 0.1;
-    for (double power = 0.1; power < 1e5; power *= 10) {
+    double best = 0.1, power = 0.1;
+    for (int digit = 0; digit < 6; digit++, power *= 10) {
         for (int i = 0; i < 3; i++) {
             best = steps[i] * power * scale <= 220 ? steps[i] * power : best;
         }

@@ -35,7 +35,8 @@ static uint32_t count_lattice(const Overlap *overlap, int n) {
     EnfVec3 size = enf_sub(overlap->box.max, overlap->box.min);
     uint32_t inside = 0;
     for (int i = 0; i < n * n * n; i++) {
-        EnfVec3 step = enf_v3((i % n + 0.5) / n, (i / n % n + 0.5) / n, (i / n / n + 0.5) / n);
+        int x = i % n, y = i / n % n, z = i / n / n;
+        EnfVec3 step = enf_v3((x + 0.5) / n, (y + 0.5) / n, (z + 0.5) / n);
         inside += in_both(overlap, enf_add(overlap->box.min, enf_v3(step.x * size.x, step.y * size.y, step.z * size.z)));
     }
     return inside;
