@@ -3,6 +3,7 @@
 #include "harness/harness.h"
 #include "scenes/maker.h"
 
+#include <enfilade/tolerances.h>
 #include <enfilade/vis.h>
 
 #include <string.h>
@@ -109,6 +110,38 @@ static void test_an_enfilade_is_seen_to_its_end(void **state) {
     close_row(&row);
 }
 
+/* PITFALLS 7: no depth hides a room, however many doors stand in one line. */
+static void test_no_depth_hides_a_room(void **state) {
+    (void)state;
+    enum { MANY = 64 };
+    Row row;
+    memset(&row, 0, sizeof row);
+    row.maker = enf_maker_create();
+    assert_non_null(row.maker);
+    for (uint32_t i = 0; i < MANY; i++) {
+        uint32_t cell = 0;
+        double x = 0.5 * i;
+        (void)enf_maker_cell(row.maker, "room", enf_v3(x, 0.0, 0.0), &cell);
+        EnfBox3 box = {{x, 0, 0}, {x + 0.5, 3, 4}};
+        enf_maker_group(row.maker);
+        enf_maker_box(row.maker, cell, 0, box, true);
+        const EnfVec3 points[4] = {{x, 0, 1}, {x, 2, 1}, {x, 2, 3}, {x, 0, 3}};
+        if (i > 0) {
+            (void)enf_maker_portal(row.maker, "door", i - 1, i, points, 4, 0);
+        }
+    }
+    finish(&row);
+    EnfView view = along_the_doors();
+    view.camera = enf_camera(enf_v3(0.25, 1.0, 2.0), enf_turn(-90.0, 0.0, 0.0), 60.0, 640, 480);
+    for (int cull = ENF_CULL_SEQUENCES; cull <= ENF_CULL_WORKLIST; cull++) {
+        view.cull = (EnfCull)cull;
+        const EnfVisSet *set = look(&row, &view);
+        assert_int_equal(set->cell_count, MANY);
+        assert_int_equal(set->visit_count, MANY);
+    }
+    close_row(&row);
+}
+
 /* PITFALLS 10: closing stops the traversal, not the drawing of what stands before the door. */
 static void test_closed_doors_stop_the_eye(void **state) {
     (void)state;
@@ -153,6 +186,27 @@ static void test_the_eye_in_the_doorway(void **state) {
                 const EnfVisSet *set = look(&row, &view);
                 assert_true(sees(set, 0) && sees(set, 1));
             }
+        }
+    }
+    close_row(&row);
+}
+
+/* PITFALLS 4: two doors in one plane with nothing between; an eye that rounding has put a hair beyond both looks through both, not
+ * only through that of its own cell. */
+static void test_a_hair_beyond_is_on_neither_side(void **state) {
+    (void)state;
+    Row row;
+    open_row(&row);
+    const EnfVec3 here[4] = {{4, 0, 1.5}, {4, 2, 1.5}, {4, 2, 2.5}, {4, 0, 2.5}};
+    enf_portals_move(&row.portals, enf_maker_half(row.maker, row.doors[1], 0), here);
+    static const double beyond[] = {0.0, 1e-9, 0.5 * ENF_GRID_STEP};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        for (int cull = ENF_CULL_SEQUENCES; cull <= ENF_CULL_WORKLIST; cull++) {
+            EnfView view = along_the_doors();
+            view.camera = enf_camera(enf_v3(4.0 + beyond[i], 1.0, 2.0), enf_turn(-90.0, 0.0, 0.0), 60.0, 640, 480);
+            view.cull = (EnfCull)cull;
+            const EnfVisSet *set = look(&row, &view);
+            assert_true(sees(set, 1) && sees(set, 2));
         }
     }
     close_row(&row);
@@ -314,7 +368,8 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_an_eye_outside_sees_the_frustum),     cmocka_unit_test(test_open_cells_hide_nothing),
     cmocka_unit_test(test_overlap_links_pass_the_window),       cmocka_unit_test(test_a_teleport_moves_the_eye),
     cmocka_unit_test(test_mirrors_facing_mirrors_end),          cmocka_unit_test(test_limits_list_more),
-    cmocka_unit_test(test_primitives_name_every_visit),
+    cmocka_unit_test(test_primitives_name_every_visit),         cmocka_unit_test(test_no_depth_hides_a_room),
+    cmocka_unit_test(test_a_hair_beyond_is_on_neither_side),
 };
 
 ENF_TEST_MAIN(tests)
