@@ -12,9 +12,10 @@
 
 /* Where on the way there and back, 0 to 3, a unit between two points. */
 static double way(const Mover *mover, int64_t tick) {
-    int64_t cycle = 2 * (int64_t)mover->period;
-    int64_t at = (tick + (int64_t)mover->phase) % cycle;
-    at = at > (int64_t)mover->period ? cycle - at : at;
+    uint32_t cycle = 2 * mover->period;
+    uint64_t since = (uint64_t)tick + mover->phase;
+    uint32_t at = since <= UINT32_MAX ? (uint32_t)since % cycle : (uint32_t)(since % cycle); /* the short division is fast */
+    at = at > mover->period ? cycle - at : at;
     return 3.0 * ((double)at / (double)mover->period);
 }
 

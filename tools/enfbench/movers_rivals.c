@@ -8,11 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Half the width of a cheap box: a little more than the object's, for what single precision rounds. */
+#define CHEAP (MOVER_REACH + 0.0625)
+
 struct Rival {
     const MoversScene *scene;
     bool sweep;
-    EnfPose *poses;
-    EnfKdBlock *blocks;        /* sweep: the cheap boxes, relative to the tree's origin */
+    int64_t tick;
+    EnfVec3f *places;          /* flat: where an object is */
+    EnfKdBlock *blocks;        /* sweep: the cheap boxes */
     uint32_t *cells, *sorted;  /* flat: the cell of an object; objects by cell */
     uint32_t *starts;          /* flat: where a cell's objects begin, cell_count + 1 */
     uint32_t *seen, *rejected; /* frame stamps: a cell is seen; an object has been asked about */
@@ -22,7 +26,7 @@ struct Rival {
 
 void bench_rival_destroy(Rival *rival) {
     if (rival != NULL) {
-        free(rival->poses);
+        free(rival->places);
         free(rival->blocks);
         free(rival->cells);
         free(rival->sorted);
@@ -44,7 +48,7 @@ Rival *bench_rival_create(const MoversScene *scene, bool sweep) {
     rival->sweep = sweep;
     rival->block_count = (count + ENF_KD_BLOCK - 1) / ENF_KD_BLOCK;
     rival->cell_count = scene->rooms.def.nx * scene->rooms.def.nz;
-    rival->poses = calloc(count + 1U, sizeof *rival->poses);
+    rival->places = calloc(count + 1U, sizeof *rival->places);
     rival->blocks = calloc(rival->block_count + 1U, sizeof *rival->blocks);
     rival->cells = calloc(count + 1U, sizeof *rival->cells);
     rival->sorted = calloc(count + 1U, sizeof *rival->sorted);
@@ -52,7 +56,7 @@ Rival *bench_rival_create(const MoversScene *scene, bool sweep) {
     rival->seen = calloc(rival->cell_count + 1U, sizeof *rival->seen);
     rival->rejected = calloc(count + 1U, sizeof *rival->rejected);
     rival->found = calloc(count + 1U, sizeof *rival->found);
-    bool ok = rival->poses && rival->blocks && rival->cells && rival->sorted && rival->starts && rival->seen &&
+    bool ok = rival->places && rival->blocks && rival->cells && rival->sorted && rival->starts && rival->seen &&
               rival->rejected && rival->found;
     if (!ok) {
         bench_rival_destroy(rival);
@@ -67,6 +71,17 @@ Rival *bench_rival_create(const MoversScene *scene, bool sweep) {
     return rival;
 }
 
+static EnfVec3f single(EnfVec3 p) {
+    EnfVec3f out = {(float)p.x, (float)p.y, (float)p.z};
+    return out;
+}
+
+/* Where a motion costs something it is worked out whole; a straight way has nothing but a position. */
+static EnfVec3 evaluate(const Mover *mover, int64_t tick) {
+    bool plain = (mover->motion == MOVERS_FREE || mover->motion == MOVERS_LINEAR) && mover->polygons == 0;
+    return plain ? bench_mover_at(mover, tick) : bench_mover_state(mover, tick).position;
+}
+
 static uint32_t cell_at(const Rival *rival, double x, double z) {
     const EnfRoomsDef *d = &rival->scene->rooms.def;
     double ix = (x - d->origin.x) / d->room.x;
@@ -79,7 +94,8 @@ static uint32_t cell_at(const Rival *rival, double x, double z) {
 static void look_at(Rival *rival, const MoversWindows *windows, uint32_t object, uint32_t *count) {
     if (rival->rejected[object] != rival->frame) {
         rival->rejected[object] = rival->frame;
-        if (bench_movers_shown(rival->scene, windows, bench_mover_box(&rival->poses[object]))) {
+        EnfPose pose = bench_mover_state(&rival->scene->movers[object], rival->tick);
+        if (bench_movers_shown(rival->scene, windows, bench_mover_box(&pose))) {
             rival->found[(*count)++] = object;
         }
     }
@@ -92,8 +108,8 @@ static void bin(Rival *rival) {
     uint32_t count = rival->scene->def.movers;
     memset(rival->starts, 0, (rival->cell_count + 1) * sizeof *rival->starts);
     for (uint32_t i = 0; i < count; i++) {
-        const EnfVec3 *p = &rival->poses[i].position;
-        rival->cells[i] = cell_at(rival, p->x, p->z);
+        const EnfVec3f *p = &rival->places[i];
+        rival->cells[i] = cell_at(rival, (double)p->x, (double)p->z);
         rival->starts[rival->cells[i] + 1]++;
     }
     for (uint32_t c = 0; c < rival->cell_count; c++) {
@@ -117,9 +133,9 @@ static void look_into(Rival *rival, const MoversWindow *window, const MoversWind
             uint32_t cell = z * d->nx + x;
             uint32_t end = cell + 1 < rival->cell_count ? rival->starts[cell + 2] : rival->scene->def.movers;
             for (uint32_t k = rival->starts[cell + 1]; k < end; k++) {
-                const EnfVec3 *p = &rival->poses[rival->sorted[k]].position;
-                bool near = p->x > room.min.x - MOVER_REACH && p->x < room.max.x + MOVER_REACH &&
-                            p->z > room.min.z - MOVER_REACH && p->z < room.max.z + MOVER_REACH;
+                EnfVec3 p = enf_v3_from_f(rival->places[rival->sorted[k]]);
+                bool near = p.x > room.min.x - CHEAP && p.x < room.max.x + CHEAP && p.z > room.min.z - CHEAP &&
+                            p.z < room.max.z + CHEAP;
                 if (near) {
                     look_at(rival, windows, rival->sorted[k], count);
                 }
@@ -130,7 +146,7 @@ static void look_into(Rival *rival, const MoversWindow *window, const MoversWind
 
 static void evaluate_flat(Rival *rival, int64_t tick) {
     for (uint32_t i = 0; i < rival->scene->def.movers; i++) {
-        rival->poses[i] = bench_mover_state(&rival->scene->movers[i], tick);
+        rival->places[i] = single(evaluate(&rival->scene->movers[i], tick));
     }
     bin(rival);
 }
@@ -138,13 +154,12 @@ static void evaluate_flat(Rival *rival, int64_t tick) {
 /* ---- sweep ------------------------------------------------------------------------------------------------------ */
 
 static void evaluate_sweep(Rival *rival, int64_t tick) {
-    const float w = (float)MOVER_REACH + 0.0625F; /* and a little for rounding */
-    const float h = (float)MOVER_HEIGHT + 0.0625F;
+    const float w = (float)CHEAP;
+    const float h = (float)(MOVER_HEIGHT + 0.0625);
     for (uint32_t i = 0; i < rival->scene->def.movers; i++) {
-        rival->poses[i] = bench_mover_state(&rival->scene->movers[i], tick);
+        EnfVec3f p = single(evaluate(&rival->scene->movers[i], tick));
         EnfKdBlock *block = &rival->blocks[i / ENF_KD_BLOCK];
         uint32_t lane = i % ENF_KD_BLOCK;
-        EnfVec3f p = {(float)rival->poses[i].position.x, (float)rival->poses[i].position.y, (float)rival->poses[i].position.z};
         block->min_x[lane] = p.x - w;
         block->min_y[lane] = p.y - h;
         block->min_z[lane] = p.z - w;
@@ -154,14 +169,14 @@ static void evaluate_sweep(Rival *rival, int64_t tick) {
     }
 }
 
-/* Could an object here touch a seen cell? The cells of its corners. */
-static bool near_seen(const Rival *rival, uint32_t object) {
-    const EnfVec3 *p = &rival->poses[object].position;
-    const double r = MOVER_REACH;
-    return rival->seen[cell_at(rival, p->x - r, p->z - r)] == rival->frame ||
-           rival->seen[cell_at(rival, p->x + r, p->z - r)] == rival->frame ||
-           rival->seen[cell_at(rival, p->x - r, p->z + r)] == rival->frame ||
-           rival->seen[cell_at(rival, p->x + r, p->z + r)] == rival->frame;
+/* Could a box touch a seen cell? The cells of its corners. */
+static bool near_seen(const Rival *rival, const EnfKdBlock *block, uint32_t lane) {
+    double x0 = (double)block->min_x[lane];
+    double x1 = (double)block->max_x[lane];
+    double z0 = (double)block->min_z[lane];
+    double z1 = (double)block->max_z[lane];
+    return rival->seen[cell_at(rival, x0, z0)] == rival->frame || rival->seen[cell_at(rival, x1, z0)] == rival->frame ||
+           rival->seen[cell_at(rival, x0, z1)] == rival->frame || rival->seen[cell_at(rival, x1, z1)] == rival->frame;
 }
 
 static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindows *windows, uint32_t *count) {
@@ -178,9 +193,9 @@ static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindo
     for (uint32_t b = 0; b < rival->block_count; b++) {
         uint32_t mask = simd->boxes(&planes, rival->blocks[b].min_x, planes.all) & 0xff;
         for (; mask != 0; mask &= mask - 1) {
-            uint32_t object = b * ENF_KD_BLOCK + enf_simd_lowest(mask);
-            if (near_seen(rival, object)) {
-                look_at(rival, windows, object, count);
+            uint32_t lane = enf_simd_lowest(mask);
+            if (near_seen(rival, &rival->blocks[b], lane)) {
+                look_at(rival, windows, b * ENF_KD_BLOCK + lane, count);
             }
         }
     }
@@ -197,6 +212,7 @@ static int ascending(const void *a, const void *b) {
 const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const MoversWindows *windows, int64_t tick,
                                   uint32_t *count) {
     rival->frame++;
+    rival->tick = tick;
     *count = 0;
     if (rival->sweep) {
         evaluate_sweep(rival, tick);
