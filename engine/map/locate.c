@@ -215,12 +215,14 @@ typedef struct Rivals {
     uint32_t score[CANDIDATES_MAX], count;
 } Rivals;
 
-enum { SCORE_OWN = 4, SCORE_GUEST = 1, SPREAD = 4 };
+enum { SCORE_PORTAL = 16, SCORE_OWN = 4, SCORE_GUEST = 1, SPREAD = 4 };
 
-/* One ray: the rivals that own the nearest surface or the opening, and those that only show it. */
+/* One ray: the rivals that own the nearest surface, and those that only show it. An opening that nothing hides says the most: its two
+ * sides are two rooms. */
 static void score_ray(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws, EnfVec3 direction) {
     double t[CANDIDATES_MAX], nearest = HUGE_VAL;
-    bool own[CANDIDATES_MAX], front[CANDIDATES_MAX];
+    bool front[CANDIDATES_MAX];
+    uint32_t worth[CANDIDATES_MAX];
     for (uint32_t i = 0; i < rivals->count; i++) {
         const Shell *shell = &rivals->shells[i];
         EnfRayHit hit;
@@ -228,14 +230,29 @@ static void score_ray(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws, EnfVec3 d
         bool met = enf_map_ray_query(map, &query, &hit);
         double before = t[i] = met ? hit.t : HUGE_VAL;
         front[i] = met && hit.front;
-        own[i] = met && map->clusters[hit.cluster].cell == shell->cell;
+        worth[i] = met && map->clusters[hit.cluster].cell == shell->cell ? SCORE_OWN : SCORE_GUEST;
         probe_portals(map, shell->cell, enf_sub(p_ws, enf_map_origin(map, shell->cell)), direction, &t[i], &front[i]);
-        own[i] = own[i] || t[i] < before;
+        worth[i] = t[i] < before ? SCORE_PORTAL : worth[i];
         nearest = t[i] < nearest ? t[i] : nearest;
     }
     for (uint32_t i = 0; i < rivals->count && nearest < HUGE_VAL; i++) {
         if (front[i] && t[i] <= nearest + ENF_TOL_ROUNDING) {
-            rivals->score[i] += own[i] ? SCORE_OWN : SCORE_GUEST;
+            rivals->score[i] += worth[i];
+        }
+    }
+}
+
+/* Towards the middle of every opening of a rival. */
+static void score_portals(const EnfMap *map, Rivals *rivals, uint32_t cell, EnfVec3 p_ws) {
+    const EnfCell *c = &map->cells[cell];
+    for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+        EnfVec3 middle = {0};
+        for (uint32_t i = 0; i < map->portals[p].vertex_count; i++) {
+            middle = enf_add(middle, enf_scale(enf_map_portal_vertex(map, p, i), 1.0 / map->portals[p].vertex_count));
+        }
+        EnfVec3 way = enf_sub(enf_add(middle, enf_map_origin(map, cell)), p_ws);
+        if (map->portals[p].vertex_count > 0 && enf_dot(way, way) > 0.0) {
+            score_ray(map, rivals, p_ws, enf_normalize(way));
         }
     }
 }
@@ -248,6 +265,9 @@ static void score_all(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws) {
         for (int k = 0; k < SPREAD; k++) {
             score_ray(map, rivals, p_ws, spread[k]);
         }
+    }
+    for (uint32_t i = 0; i < rivals->count; i++) {
+        score_portals(map, rivals, rivals->shells[i].cell, p_ws);
     }
 }
 
