@@ -300,6 +300,55 @@ static uint32_t settle(const EnfMap *map, EnfVec3 p_ws, uint32_t best, Rivals *r
     return best;
 }
 
+/* Metres behind an opening within which it is asked who is there. */
+static const double DOORSTEP = 1.0;
+
+/* Does the point lie straight behind the opening, with nothing between? Then it is in the cell behind, whatever a coarse `-bound` or a
+ * wall that belongs to somebody else says. */
+static bool is_on_doorstep(const EnfMap *map, uint32_t portal, EnfVec3 p_ws) {
+    const EnfPortal *half = &map->portals[portal];
+    EnfVec3 points[ENF_POLYGON_MAX], local = enf_sub(p_ws, enf_map_origin(map, half->source));
+    if (half->vertex_count < 3 || half->vertex_count > ENF_POLYGON_MAX || half->transform != ENF_NONE || half->twin == ENF_NONE) {
+        return false;
+    }
+    for (uint32_t i = 0; i < half->vertex_count; i++) {
+        points[i] = enf_map_portal_vertex(map, portal, i);
+    }
+    EnfPlane plane = enf_plane_from_polygon(points, half->vertex_count);
+    double distance = enf_dot(plane.n, enf_sub(local, points[0]));
+    if (!(distance > ENF_TOL_ROUNDING && distance < DOORSTEP)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < half->vertex_count; i++) {
+        EnfVec3 along = enf_sub(points[(i + 1) % half->vertex_count], points[i]);
+        if (enf_dot(enf_cross(along, enf_sub(local, points[i])), plane.n) < 0.0) {
+            return false;
+        }
+    }
+    EnfVec3 back = enf_scale(plane.n, -1.0);
+    double t = distance - ENF_TOL_ROUNDING;
+    bool leaves = false;
+    Shell shell = shell_of(map, half->target);
+    shell.guests = true;
+    EnfRayHit hit;
+    EnfMapQuery query = {half->target, p_ws, back, t, shell_wanted, &shell};
+    if (enf_map_ray_query(map, &query, &hit)) {
+        return false;
+    }
+    probe_portals(map, half->target, enf_sub(p_ws, enf_map_origin(map, half->target)), back, &t, &leaves);
+    return t >= distance - ENF_TOL_ROUNDING;
+}
+
+static uint32_t step_through(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
+    const EnfCell *c = &map->cells[cell];
+    for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+        if (map->cells[map->portals[p].target].priority >= c->priority && is_on_doorstep(map, p, p_ws)) {
+            return map->portals[p].target;
+        }
+    }
+    return cell;
+}
+
 uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
     if (!enf_v3_finite(p_ws)) {
         return ENF_NONE;
@@ -329,7 +378,9 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
         }
     }
     bool agreed = rivals.count <= 1 && (rivals.count == 0 || rivals.shells[0].cell == best);
-    return agreed || (best != ENF_NONE && map->cells[best].bound_count > 0) ? best : settle(map, p_ws, best, &rivals);
+    bool bound = best != ENF_NONE && map->cells[best].bound_count > 0;
+    best = agreed || bound ? best : settle(map, p_ws, best, &rivals);
+    return best != ENF_NONE ? step_through(map, best, p_ws) : ENF_NONE;
 }
 
 /* ---- by name ---------------------------------------------------------------------------------------------------- */
