@@ -160,6 +160,31 @@ static void both_contexts_write_the_same_picture(void **state) {
     }
 }
 
+/* PITFALLS 32: vectors of 512 bits, which crash llvmpipe with LLVM 15, are lowered, and the picture is the same. */
+static void wide_vectors_are_lowered(void **state) {
+    (void)state;
+    const char *map = open_map();
+    need_context(map, "any");
+    const char *out = enf_test_temp_path("vectors.png"), *said = enf_test_temp_path("said.txt");
+    uint8_t *pictures[2];
+    for (int i = 0; i < 2; i++) {
+        char command[3 * COMMAND_SIZE];
+        snprintf(command, sizeof command,
+                 "LP_NATIVE_VECTOR_WIDTH=%d '%s/enfview' '%s' --eye 2.5,1.5,4.9 --size 64x48 -q -o '%s' 2> '%s'", i ? 512 : 256,
+                 ENF_BIN_DIR, map, out, said);
+        assert_int_equal(enf_test_shell(command), 0);
+        pictures[i] = read_picture(out, 64, 48);
+    }
+    assert_memory_equal(pictures[0], pictures[1], (size_t)64 * 48 * 4);
+    size_t size;
+    char *text = (char *)enf_test_read_file(said, &size);
+    assert_non_null(strstr(text, "LP_NATIVE_VECTOR_WIDTH=512"));
+    free(text);
+    for (int i = 0; i < 2; i++) {
+        enf_free(NULL, pictures[i], (size_t)64 * 48, 4);
+    }
+}
+
 /* ---- verification ----------------------------------------------------------------------------------------------- */
 
 /* Through the doors of all four rooms, turning. */
@@ -230,9 +255,13 @@ static void what_is_lost_is_found(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(bad_command_lines_are_refused),         cmocka_unit_test(failures_have_status_1),
-    cmocka_unit_test(ids_and_statistics_are_written),        cmocka_unit_test(both_contexts_write_the_same_picture),
-    cmocka_unit_test(verification_ends_with_a_line_of_json), cmocka_unit_test(what_is_lost_is_found),
+    cmocka_unit_test(bad_command_lines_are_refused),
+    cmocka_unit_test(failures_have_status_1),
+    cmocka_unit_test(ids_and_statistics_are_written),
+    cmocka_unit_test(both_contexts_write_the_same_picture),
+    cmocka_unit_test(verification_ends_with_a_line_of_json),
+    cmocka_unit_test(what_is_lost_is_found),
+    cmocka_unit_test(wide_vectors_are_lowered),
 };
 
 ENF_TEST_MAIN(tests)

@@ -128,12 +128,19 @@ static EnfCliResult parse(Options *o, int argc, char **argv) {
     return result == ENF_CLI_RUN ? check(&cli, o, &raw, positional_count) : result;
 }
 
+static void print_message(void *user, EnfLogLevel level, const char *message) {
+    (void)user;
+    (void)level;
+    fprintf(stderr, "enfview: %s\n", message);
+}
+
 int main(int argc, char **argv) {
     Options options = {.fov_y_deg = 60.0, .size = {640, 480}, .cull = ENF_CULL_WORKLIST, .every = 1};
     EnfCliResult parsed = parse(&options, argc, argv);
     if (parsed != ENF_CLI_RUN) {
         return parsed == ENF_CLI_DONE ? ENF_EXIT_OK : ENF_EXIT_USAGE;
     }
+    enf_set_log(print_message, NULL);
     EnfError error = {0};
     Viewer viewer;
     int status;
