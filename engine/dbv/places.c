@@ -438,13 +438,13 @@ static bool split_to_cells(EnfDbvIndex *index, const EnfBox3 *box, Cover *cover)
 
 bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f volume) {
     EnfBox3 box = enf_box3_from_f(volume);
-    Cover cover;
+    Cover cover = {{0}, 0, {false}};
     return split_to_cells(index, &box, &cover);
 }
 
 uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f volume, uint32_t cells[ENF_DBV_LINKS]) {
     EnfBox3 box = enf_box3_from_f(volume);
-    Cover cover;
+    Cover cover = {{0}, 0, {false}};
     if (!split_to_cells(index, &box, &cover)) {
         return 0;
     }

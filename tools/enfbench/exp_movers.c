@@ -132,7 +132,8 @@ static const uint32_t *find(const MoversScene *scene, Runner *runner, uint32_t f
 }
 
 /* Objects that brute force finds and the list lacks. */
-static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindows *windows, const uint32_t *list, uint32_t count) {
+static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindows *windows, const uint32_t *list,
+                     uint32_t count) {
     uint32_t missing = 0;
     uint32_t k = 0;
     for (uint32_t i = 0; i < scene->def.movers; i++) {

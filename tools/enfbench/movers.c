@@ -245,7 +245,8 @@ static void make_mover(MoversScene *scene, Mover *mover, uint32_t cell, bool sta
         EnfVec3 through = door(scene, portal, a.y);
         EnfBox3 box = enf_rooms_box(&scene->rooms, cell);
         EnfVec3 middle = enf_scale(enf_add(box.min, box.max), 0.5);
-        bool along_x = fabs(through.x - middle.x) * (box.max.z - box.min.z) > fabs(through.z - middle.z) * (box.max.x - box.min.x);
+        bool along_x = fabs(through.x - middle.x) * (box.max.z - box.min.z) >
+                       fabs(through.z - middle.z) * (box.max.x - box.min.x);
         double side = along_x ? (through.x > middle.x ? 0.5 : -0.5) : (through.z > middle.z ? 0.5 : -0.5);
         EnfVec3 out = along_x ? enf_v3(side, 0.0, 0.0) : enf_v3(0.0, 0.0, side);
         way_in = enf_sub(through, out);

@@ -15,13 +15,13 @@ typedef enum MoversEye { MOVERS_STILL, MOVERS_WALK, MOVERS_JUMP } MoversEye;
 
 typedef struct MoversDef {
     uint32_t rooms, movers, frames, seed;
-    uint32_t visible; /**< objects that stay in the eye's room; the rest stay out of it. 0: spread evenly */
-    uint32_t check;   /**< every check-th frame is compared with brute force */
+    uint32_t visible;   /**< objects that stay in the eye's room; the rest stay out of it. 0: spread evenly */
+    uint32_t check;     /**< every check-th frame is compared with brute force */
     uint32_t polygons;  /**< vertices of an object that are moved on the processor when it is evaluated */
     uint32_t furniture; /**< boxes a room */
-    uint32_t period;  /**< ticks, of `constant`; the first of `adaptive` and `optimal` */
-    double speed;     /**< metres a second, at most */
-    double doors;     /**< percent of the inner walls */
+    uint32_t period;    /**< ticks, of `constant`; the first of `adaptive` and `optimal` */
+    double speed;       /**< metres a second, at most */
+    double doors;       /**< percent of the inner walls */
     double door_width;
     double budget; /**< seconds that one technique may take; then it takes no more turns */
     MoversMotion motion;
@@ -32,7 +32,7 @@ typedef struct MoversDef {
 /** An object's motion: everything that it needs, in one place. */
 typedef struct Mover {
     float points[4][3];
-    float speed;           /**< metres a tick, at most */
+    float speed;            /**< metres a tick, at most */
     uint32_t phase, period; /**< ticks; there and back takes twice the period */
     uint32_t polygons;
     uint8_t motion;

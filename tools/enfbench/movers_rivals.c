@@ -182,7 +182,8 @@ static bool near_seen(const Rival *rival, const EnfKdBlock *block, uint32_t lane
 static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindows *windows, uint32_t *count) {
     const EnfSimd *simd = enf_simd();
     const EnfMap *map = rival->scene->rooms.map;
-    EnfBox3 all = enf_box3_union(enf_rooms_box(&rival->scene->rooms, 0), enf_rooms_box(&rival->scene->rooms, map->cells_count - 1));
+    EnfBox3 all = enf_box3_union(enf_rooms_box(&rival->scene->rooms, 0),
+                                 enf_rooms_box(&rival->scene->rooms, map->cells_count - 1));
     EnfPyramid pyramid;
     EnfSimdPlanes planes;
     enf_pyramid(&view->camera, enf_window_full(&view->camera), NULL, enf_v3(0.0, 0.0, 0.0), enf_box3f_outward(all), &pyramid);

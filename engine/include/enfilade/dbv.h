@@ -19,7 +19,7 @@ typedef enum EnfDbvPolicy {
     ENF_DBV_ADAPTIVE, /**< twice as long after an expiry unseen, half after an exposure that drew nothing */
     ENF_DBV_MAXIMAL,  /**< as long as the volume stays off the cells seen in the last frame */
     ENF_DBV_OPTIMAL,  /**< for a still eye: doubled until seen, then bisected between the last good and the last bad */
-    ENF_DBV_REACH     /**< as MAXIMAL, or longer: as long as a confined object (EnfFreeMotion.confined) cannot have come to a portal
+    ENF_DBV_REACH /**< as MAXIMAL, or longer: as long as a confined object (EnfFreeMotion.confined) cannot have come to a portal
                            into a seen cell. Its volume hangs only in cells that it can walk to. Closed portals count as open, so
                            that opening a door is no event; portals must not be moved (enf_portals_move) */
 } EnfDbvPolicy;
