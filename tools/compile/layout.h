@@ -70,7 +70,7 @@ typedef struct EnfLayout {
     uint32_t point_count;
     EnfPlane *bound_planes;
     uint32_t bound_plane_count;
-    EnfRole *roles;       /**< a source node */
+    EnfRole *roles;         /**< a source node */
     uint32_t *node_cells;   /**< a source node's cell, or ENF_NONE: loose */
     EnfLayoutGuest *guests; /**< ascending */
     uint32_t guest_count;
