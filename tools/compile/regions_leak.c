@@ -282,8 +282,9 @@ static uint32_t seed_voxels(Leaks *leaks, uint32_t cell, uint32_t *voxels) {
  * cannot be told, so whoever sees into it is shown everything. */
 static void report_unclosed(Leaks *leaks, uint32_t cell) {
     leaks->regions->layout->cells[cell].flags |= ENF_CELL_OPEN;
-    enf_diagnose(leaks->regions->diagnosis, ENF_DIAGNOSIS_ROOM_LEAK, leaks->regions->layout->cells[cell].name,
-                 "its own surfaces close off nothing (are its walls under another node?): whoever sees into it is shown everything");
+    enf_diagnose(
+        leaks->regions->diagnosis, ENF_DIAGNOSIS_ROOM_LEAK, leaks->regions->layout->cells[cell].name,
+        "its own surfaces close off nothing (are its walls under another node?): whoever sees into it is shown everything");
 }
 
 static void report(Leaks *leaks, uint32_t cell, uint32_t exit) {
