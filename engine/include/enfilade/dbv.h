@@ -17,7 +17,7 @@ extern "C" {
 typedef enum EnfDbvPolicy {
     ENF_DBV_CONSTANT, /**< always `period_ticks` */
     ENF_DBV_ADAPTIVE, /**< twice as long after an expiry unseen, half after an exposure that drew nothing */
-    ENF_DBV_MAXIMAL,  /**< as long as the volume stays off the cells seen in the last frame */
+    ENF_DBV_MAXIMAL,  /**< as long as the volume keeps most of its distance to the cells seen in the last frame */
     ENF_DBV_OPTIMAL,  /**< for a still eye: doubled until seen, then bisected between the last good and the last bad */
     ENF_DBV_REACH /**< as MAXIMAL, or longer: as long as a confined object (EnfFreeMotion.confined) cannot have come to a portal
                            into a seen cell. Its volume hangs only in cells that it can walk to. Closed portals count as open, so
@@ -40,7 +40,7 @@ typedef struct EnfDbvCounters {
     uint64_t exposed;    /**< volumes seen, their objects evaluated */
     uint64_t drawn;      /**< of these, with the object itself in a window */
     uint64_t expired;    /**< volumes that ended unseen */
-    uint64_t late;       /**< volumes met after their expiry tick: must stay 0 */
+    uint64_t late;       /**< volumes exposed after their expiry tick: must stay 0 */
     uint64_t reinserted; /**< volumes made and hung */
     uint64_t avoided;    /**< living objects that the frame did not touch */
     uint64_t nodes;      /**< tree nodes passed while hanging volumes */
@@ -75,7 +75,7 @@ bool enf_dbv_failed(const EnfDbvIndex *index);
 EnfDbvCounters enf_dbv_frame_counters(const EnfDbvIndex *index);
 EnfDbvCounters enf_dbv_total_counters(const EnfDbvIndex *index);
 
-/** The volume of an object and its expiry tick, for debug views; false if it has none. */
+/** The volume of an object (of several boxes, the first) and its expiry tick, for debug views; false if it hangs in no cell. */
 bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume, int64_t *expiry_tick);
 
 /** Memory of the index, bytes; without the world's. */
