@@ -213,11 +213,12 @@ static bool wins(const EnfMap *map, uint32_t a, uint32_t b) {
 typedef struct Rivals {
     Shell shells[CANDIDATES_MAX];
     uint32_t score[CANDIDATES_MAX], count;
+    bool sure[CANDIDATES_MAX]; /* their own surfaces say so */
 } Rivals;
 
-enum { SCORE_PORTAL = 16, SCORE_OWN = 4, SCORE_GUEST = 1, SPREAD = 4 };
+enum { SCORE_PORTAL = 4, SCORE_SURFACE = 1, SPREAD = 4 };
 
-/* One ray: the rivals that own the nearest surface, and those that only show it. An opening that nothing hides says the most: its two
+/* One ray: the rivals that show the nearest surface, whoever owns it. An opening that nothing hides says the most: its two
  * sides are two rooms. */
 static void score_ray(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws, EnfVec3 direction) {
     double t[CANDIDATES_MAX], nearest = HUGE_VAL;
@@ -230,7 +231,7 @@ static void score_ray(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws, EnfVec3 d
         bool met = enf_map_ray_query(map, &query, &hit);
         double before = t[i] = met ? hit.t : HUGE_VAL;
         front[i] = met && hit.front;
-        worth[i] = met && map->clusters[hit.cluster].cell == shell->cell ? SCORE_OWN : SCORE_GUEST;
+        worth[i] = SCORE_SURFACE;
         probe_portals(map, shell->cell, enf_sub(p_ws, enf_map_origin(map, shell->cell)), direction, &t[i], &front[i]);
         worth[i] = t[i] < before ? SCORE_PORTAL : worth[i];
         nearest = t[i] < nearest ? t[i] : nearest;
@@ -274,27 +275,33 @@ static void score_all(const EnfMap *map, Rivals *rivals, EnfVec3 p_ws) {
 /* With its guests; an open cell, whose walls nobody knows, wherever its box does. */
 static bool could_contain(const EnfMap *map, uint32_t cell, EnfVec3 p_ws) {
     bool open = (map->cells[cell].flags & ENF_CELL_OPEN) != 0;
-    return (open && within_bounds(&map->cells[cell], enf_sub(p_ws, enf_map_origin(map, cell)))) || contains(map, cell, p_ws, true);
+    return (open && within_bounds(&map->cells[cell], enf_sub(p_ws, enf_map_origin(map, cell)))) ||
+           contains(map, cell, p_ws, true);
 }
 
-static void add_rival(const EnfMap *map, Rivals *rivals, uint32_t cell) {
+static void add_rival(const EnfMap *map, Rivals *rivals, uint32_t cell, bool sure) {
     if (rivals->count < CANDIDATES_MAX) {
         rivals->shells[rivals->count] = shell_of(map, cell);
+        rivals->sure[rivals->count] = sure;
         rivals->shells[rivals->count++].guests = true;
     }
 }
 
-/* `best` (or none) is what the shells say; of the others, one wins to which more belongs of what is near. */
+/* `best` (or none) is what the shells say; of the others, one wins to which more belongs of what is near: a quarter more, where
+ * its own surfaces do not say so. */
 static uint32_t settle(const EnfMap *map, EnfVec3 p_ws, uint32_t best, Rivals *rivals) {
     score_all(map, rivals, p_ws);
     uint32_t most = 0;
     for (uint32_t i = 0; i < rivals->count; i++) {
         most = rivals->shells[i].cell == best ? rivals->score[i] : most;
     }
-    for (uint32_t i = 0; i < rivals->count; i++) {
-        if (rivals->score[i] > most) {
-            most = rivals->score[i];
-            best = rivals->shells[i].cell;
+    for (int sure = 1; sure >= 0; sure--) {
+        uint32_t least = sure || best == ENF_NONE ? most : most + most / 4;
+        for (uint32_t i = 0; i < rivals->count; i++) {
+            if (rivals->sure[i] == (sure == 1) && rivals->score[i] > least) {
+                least = most = rivals->score[i];
+                best = rivals->shells[i].cell;
+            }
         }
     }
     return best;
@@ -308,7 +315,8 @@ static const double DOORSTEP = 1.0;
 static bool is_on_doorstep(const EnfMap *map, uint32_t portal, EnfVec3 p_ws) {
     const EnfPortal *half = &map->portals[portal];
     EnfVec3 points[ENF_POLYGON_MAX], local = enf_sub(p_ws, enf_map_origin(map, half->source));
-    if (half->vertex_count < 3 || half->vertex_count > ENF_POLYGON_MAX || half->transform != ENF_NONE || half->twin == ENF_NONE) {
+    if (half->vertex_count < 3 || half->vertex_count > ENF_POLYGON_MAX || half->transform != ENF_NONE ||
+        half->twin == ENF_NONE) {
         return false;
     }
     for (uint32_t i = 0; i < half->vertex_count; i++) {
@@ -371,10 +379,10 @@ uint32_t enf_map_locate(const EnfMap *map, EnfVec3 p_ws) {
             }
             if (!outranked) {
                 best = wins(map, cell, best) ? cell : best;
-                add_rival(map, &rivals, cell);
+                add_rival(map, &rivals, cell, true);
             }
         } else if (map->cells[cell].bound_count == 0 && could_contain(map, cell, p_ws)) {
-            add_rival(map, &rivals, cell);
+            add_rival(map, &rivals, cell, false);
         }
     }
     bool agreed = rivals.count <= 1 && (rivals.count == 0 || rivals.shells[0].cell == best);
