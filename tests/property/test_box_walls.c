@@ -171,9 +171,33 @@ static void room_without_surfaces_is_open(void **state) {
     destroy(&house);
 }
 
+/* A shut door in the opening's plane shares its edges, but says nothing about its sides. */
+static void shut_door_turns_no_portal(void **state) {
+    (void)state;
+    for (uint32_t turned = 0; turned < 2; turned++) {
+        Level *level = level_new();
+        EnfBox3 hole = level_box(4, 0, 2, 4, 2, 3);
+        level_hole(level, hole);
+        uint32_t a = level_room(level, "a-room", level_box(0, 0, 0, 4, 3, 5));
+        level_room(level, "b-room", level_box(4, 0, 0, 8, 3, 5));
+        uint32_t door = level_node(level, "door", a);
+        for (uint32_t i = 0; i < 3; i++) { /* thrice, to outvote the wall */
+            level_rectangle(level, door, hole, turned, 0);
+        }
+        level_portal(level, "b*1-portal", a, hole, true);
+        House house = {.level = level};
+        compile(&house);
+        for (uint32_t i = 0; i < house.diagnosis.count; i++) {
+            assert_int_not_equal(house.diagnosis.findings[i].code, ENF_DIAGNOSIS_PORTAL_FLIPPED);
+        }
+        destroy(&house);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(boxes_make_rooms),
     cmocka_unit_test(room_without_surfaces_is_open),
+    cmocka_unit_test(shut_door_turns_no_portal),
 };
 
 ENF_TEST_MAIN(tests)

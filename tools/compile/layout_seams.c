@@ -10,10 +10,19 @@
 static const double SEAM_GAP = 0.004;
 
 typedef struct Seams {
-    EnfVec3 from, along; /* an edge of the polygon: start, unit direction */
+    EnfVec3 from, along;    /* an edge of the polygon: start, unit direction */
+    EnfVec3 normal, inward; /* of the polygon; across the edge into it */
     double length;
     double sum;
 } Seams;
+
+/* A shut door lies in the opening, with the same edges, and its front may look anywhere: it is no border of the room. */
+static bool shuts(const Seams *seams, const EnfVec3 p[3]) {
+    EnfVec3 n = enf_normalize(enf_cross(enf_sub(p[1], p[0]), enf_sub(p[2], p[0])));
+    double cosine = enf_dot(n, seams->normal);
+    EnfVec3 centre = enf_scale(enf_add(p[0], enf_add(p[1], p[2])), 1.0 / 3.0);
+    return (cosine > 0.99 || cosine < -0.99) && enf_dot(enf_sub(centre, seams->from), seams->inward) > SEAM_GAP;
+}
 
 /* Adds the common length of the edge p → q, with its sign. */
 static void add_edge(Seams *seams, EnfVec3 p, EnfVec3 q) {
@@ -37,7 +46,7 @@ static void add_triangle(Seams *seams, const EnfShells *shells, const EnfShell *
     for (int k = 0; k < 3; k++) {
         p[k] = enf_v3_from_f(shells->triangles[shell->first + item][k]);
     }
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3 && !shuts(seams, p); k++) {
         add_edge(seams, p[k], p[(k + 1) % 3]);
     }
 }
@@ -54,7 +63,8 @@ double enf_layout_seams(EnfLayoutWork *work, uint32_t cell, const EnfPatch *patc
         for (uint32_t k = 0; k < piece.point_count; k++) {
             EnfVec3 a = enf_sub(enf_grid_point(points[k]), shell->origin);
             EnfVec3 b = enf_sub(enf_grid_point(points[(k + 1) % piece.point_count]), shell->origin);
-            Seams seams = {a, enf_normalize(enf_sub(b, a)), enf_length(enf_sub(b, a)), 0.0};
+            EnfVec3 along = enf_normalize(enf_sub(b, a));
+            Seams seams = {a, along, patch->normal, enf_cross(patch->normal, along), enf_length(enf_sub(b, a)), 0.0};
             EnfVec3 gap = enf_v3(SEAM_GAP, SEAM_GAP, SEAM_GAP);
             EnfBox3 box = enf_box3_add(enf_box3_add(enf_box3_empty(), a), b);
             box = (EnfBox3){enf_sub(box.min, gap), enf_add(box.max, gap)};
