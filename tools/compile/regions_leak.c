@@ -94,6 +94,9 @@ static uint32_t run_of_node(const Leaks *leaks, uint32_t i, uint32_t end, EnfBox
 static bool gather_portals(Leaks *leaks, uint32_t cell) {
     const EnfLayout *layout = leaks->regions->layout;
     for (uint32_t p = leaks->space->portal_first[cell]; p < leaks->space->portal_first[cell + 1]; p++) {
+        if (layout->portals[p].point_count == 0) {
+            continue; /* a link, and perhaps no portal in the level has points at all */
+        }
         const EnfGrid3 *points = &layout->points[layout->portals[p].point_first];
         for (uint32_t k = 2; k < layout->portals[p].point_count; k++) {
             if (!ENF_ARRAY_ROOM(&leaks->corners, 3)) {
