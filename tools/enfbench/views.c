@@ -55,7 +55,9 @@ static bool has_suffix(const char *text, const char *suffix) {
 
 /* Compiles into a temporary map, which is gone as soon as it is read. */
 static bool compile_level(const char *level, EnfMap *map) {
-    char temporary[] = "/tmp/enfbench-XXXXXX";
+    char temporary[1024];
+    const char *place = getenv("TMPDIR");
+    snprintf(temporary, sizeof temporary, "%s/enfbench-XXXXXX", place == NULL ? "/tmp" : place);
     int file = mkstemp(temporary);
     if (file < 0) {
         fprintf(stderr, "enfbench: no temporary file\n");
@@ -73,6 +75,7 @@ static bool compile_level(const char *level, EnfMap *map) {
         result = enf_map_read(map, temporary, NULL, &error);
     }
     remove(temporary);
+    rmdir(folder);
     return result == ENF_OK || complain(level, &error);
 }
 
