@@ -63,6 +63,9 @@ typedef bool BenchFn(BenchRun *run);
 #include "enfbench/experiments.inl"
 #undef BENCH
 
+/** Makes a folder of the run's own where the system keeps such (TMPDIR); false after a message. The caller removes it. */
+bool bench_temporary_folder(char *folder, size_t size);
+
 /* ---- timing ---- */
 double bench_now_us(void);
 /** A sample's quantile in [0,1]; sorts `values`. */

@@ -94,12 +94,8 @@ static bool measure(BenchRun *run, const Files *files, const EnfGridLevel *level
     return ok;
 }
 
-/* A folder of its own in the system's place for such. */
 static bool make_files(Files *files) {
-    const char *place = getenv("TMPDIR");
-    snprintf(files->folder, sizeof files->folder, "%s/enfbench-XXXXXX", place == NULL ? "/tmp" : place);
-    if (mkdtemp(files->folder) == NULL) {
-        fputs("enfbench: compile: no temporary folder\n", stderr);
+    if (!bench_temporary_folder(files->folder, sizeof files->folder)) {
         return false;
     }
     snprintf(files->level, sizeof files->level, "%s/level.glb", files->folder);

@@ -58,6 +58,16 @@ double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double mi
     return value;
 }
 
+bool bench_temporary_folder(char *folder, size_t size) {
+    const char *place = getenv("TMPDIR");
+    int length = snprintf(folder, size, "%s/enfbench-XXXXXX", place == NULL ? "/tmp" : place);
+    if (length < 0 || (size_t)length >= size || mkdtemp(folder) == NULL) {
+        fputs("enfbench: no temporary folder\n", stderr);
+        return false;
+    }
+    return true;
+}
+
 double bench_now_us(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
