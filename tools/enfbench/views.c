@@ -55,15 +55,12 @@ static bool has_suffix(const char *text, const char *suffix) {
 
 /* Compiles into a temporary map, which is gone as soon as it is read. */
 static bool compile_level(const char *level, EnfMap *map) {
-    char temporary[1024];
-    const char *place = getenv("TMPDIR");
-    snprintf(temporary, sizeof temporary, "%s/enfbench-XXXXXX", place == NULL ? "/tmp" : place);
-    int file = mkstemp(temporary);
-    if (file < 0) {
-        fprintf(stderr, "enfbench: no temporary file\n");
+    char folder[200];
+    char temporary[256];
+    if (!bench_temporary_folder(folder, sizeof folder)) {
         return false;
     }
-    close(file);
+    snprintf(temporary, sizeof temporary, "%s/level.enfmap", folder);
     EnfError error = {ENF_OK, 0, "", ""};
     EnfCompileReport report;
     EnfCompileDef def = enf_compile_def_default();
@@ -75,7 +72,6 @@ static bool compile_level(const char *level, EnfMap *map) {
         result = enf_map_read(map, temporary, NULL, &error);
     }
     remove(temporary);
-    rmdir(folder);
     return result == ENF_OK || complain(level, &error);
 }
 
