@@ -72,6 +72,7 @@ static bool compile_level(const char *level, EnfMap *map) {
         result = enf_map_read(map, temporary, NULL, &error);
     }
     remove(temporary);
+    rmdir(folder);
     return result == ENF_OK || complain(level, &error);
 }
 
