@@ -165,7 +165,7 @@ static bool contains(const EnfMap *map, uint32_t cell, EnfVec3 p_ws, bool guests
     for (uint32_t i = c->bound_first; i < c->bound_first + c->bound_count; i++) {
         const EnfPlane4f *plane = &map->bound_planes[i];
         EnfVec3 n = enf_v3((double)plane->n[0], (double)plane->n[1], (double)plane->n[2]);
-        if (enf_dot(n, local) + (double)plane->d > 0.0) {
+        if (enf_dot(n, local) + (double)plane->d > 2.0 * ENF_GRID_STEP) { /* its points and the opening's were snapped apart */
             return false;
         }
     }
