@@ -77,11 +77,10 @@ static uint32_t space_behind(EnfVis *vis, const EnfPortalState *state, uint32_t 
 
 /* Is the eye certainly beyond the portal, so that it cannot be looked through from its source? Three-valued: within the slab it
  * is on neither side (PITFALLS 4). The start cell and bent portals have no facing test. */
-static bool faces_away(const Walk *walk, const EnfPortalState *state, EnfVec3 eye, bool start) {
+static bool faces_away(const EnfPortalState *state, EnfVec3 eye, bool start) {
     if (start || (state->flags & ENF_PORTAL_NONPLANAR) != 0) {
         return false;
     }
-    (void)walk;
     return enf_dot(state->normal, eye) + state->d > (double)state->slab;
 }
 
@@ -117,7 +116,7 @@ static bool step(Walk *walk, uint32_t index, uint32_t portal, const Pane *from, 
         return false;
     }
     EnfVec3 eye = eye_in_cell(walk->map, visit->cell, camera);
-    if (faces_away(walk, state, eye, index == 0) || !look_through(walk, state, camera, eye, from, to)) {
+    if (faces_away(state, eye, index == 0) || !look_through(walk, state, camera, eye, from, to)) {
         return false;
     }
     vis->set.counters.portals_passed++;

@@ -53,7 +53,7 @@ static bool grow(EnfWorld *world, void **array, uint32_t old_count, uint32_t new
     return true;
 }
 
-/* Room for `capacity` objects. Arrays grow one by one: what grew before a failure is merely roomier than it says. */
+/* Room for `capacity` objects: all arrays grow, or none. */
 static bool reserve_objects(EnfWorld *world, uint32_t capacity) {
     Object *objects = enf_alloc(world->allocator, capacity, sizeof *objects);
     EnfMotion *motions = enf_alloc(world->allocator, capacity, sizeof *motions);

@@ -3,6 +3,7 @@
 #include "compile/layout_patch.h"
 
 #include "compile/exact.h"
+#include "compile/union_find.h"
 
 #include <enfilade/tolerances.h>
 #include <stdlib.h>
@@ -167,20 +168,6 @@ static void drop_backs(Work *work) {
     work->triangle_count = kept;
 }
 
-static uint32_t find(uint32_t *parents, uint32_t i) {
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-static void join(uint32_t *parents, uint32_t a, uint32_t b) {
-    a = find(parents, a);
-    b = find(parents, b);
-    parents[a > b ? a : b] = a < b ? a : b;
-}
-
 /* Unites triangles that share an edge at less than 45°, and sorts them by island. */
 static void unite(Work *work) {
     uint32_t edges = 0;
@@ -198,12 +185,12 @@ static void unite(Work *work) {
             EnfVec3 n = enf_normalize(work->triangles[e->triangle].area);
             double cosine = enf_dot(n, enf_normalize(work->triangles[work->edges[j - 1].triangle].area));
             if (cosine > ISLAND_COS || cosine < -ISLAND_COS) {
-                join(work->parents, e->triangle, work->edges[j - 1].triangle);
+                enf_sets_join(work->parents, e->triangle, work->edges[j - 1].triangle);
             }
         }
     }
     for (uint32_t t = 0; t < work->triangle_count; t++) {
-        work->triangles[t].island = find(work->parents, t);
+        work->triangles[t].island = enf_sets_find(work->parents, t);
     }
     qsort(work->triangles, work->triangle_count, sizeof *work->triangles, compare_island);
 }

@@ -6,6 +6,7 @@
 
 #include "compile/array.h"
 #include "compile/exact.h"
+#include "compile/union_find.h"
 
 #include <enfilade/tolerances.h>
 
@@ -46,20 +47,6 @@ static int compare_edges(const void *pa, const void *pb) {
         return a->high < b->high ? -1 : 1;
     }
     return (a->triangle > b->triangle) - (a->triangle < b->triangle);
-}
-
-static uint32_t find(uint32_t *parents, uint32_t i) {
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-static void join(uint32_t *parents, uint32_t a, uint32_t b) {
-    a = find(parents, a);
-    b = find(parents, b);
-    parents[a > b ? a : b] = a < b ? a : b;
 }
 
 static bool weld(Closing *closing) {
@@ -106,7 +93,7 @@ static void cancel(Closing *closing) {
         int sum = 0;
         for (end = first; end < count && edges[end].low == edges[first].low && edges[end].high == edges[first].high; end++) {
             sum += edges[end].sign;
-            join(closing->parents, edges[first].triangle, edges[end].triangle);
+            enf_sets_join(closing->parents, edges[first].triangle, edges[end].triangle);
         }
         Edge left = edges[first];
         left.sign = sum < 0 ? -1 : 1;
@@ -199,10 +186,10 @@ static bool close(Closing *closing, bool *out) {
         out[t] = true;
     }
     for (uint32_t i = 0; i < closing->edges.count; i++) {
-        out[find(closing->parents, closing->edges.data[i].triangle)] = false;
+        out[enf_sets_find(closing->parents, closing->edges.data[i].triangle)] = false;
     }
     for (uint32_t t = 0; t < count; t++) {
-        out[t] = out[find(closing->parents, t)]; /* roots come first */
+        out[t] = out[enf_sets_find(closing->parents, t)]; /* roots come first */
     }
     return true;
 }

@@ -4,6 +4,7 @@
  * reach.c. A large mesh is given out triangle by triangle. */
 #include "compile/exact.h"
 #include "compile/regions.h"
+#include "compile/union_find.h"
 
 enum {
     TOGETHER = 128, /* triangles of a group that stay together: a cluster's worth */
@@ -73,14 +74,6 @@ static bool gather(Loose *loose) {
     return ok;
 }
 
-static uint32_t find(uint32_t *parents, uint32_t i) {
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
 /* Unites the triangles [first, end) of one node that share a point; the root is the first of a group. */
 static void unite(Loose *loose, uint32_t first, uint32_t end) {
     const EnfSoup *soup = loose->regions->soup;
@@ -94,9 +87,7 @@ static void unite(Loose *loose, uint32_t first, uint32_t end) {
     qsort(loose->corners, count, sizeof *loose->corners, compare_corner);
     for (uint32_t i = 1; i < count; i++) {
         if (enf_grid_equal(loose->corners[i].p, loose->corners[i - 1].p)) {
-            uint32_t a = find(loose->parents, loose->corners[i].triangle),
-                     b = find(loose->parents, loose->corners[i - 1].triangle);
-            loose->parents[a > b ? a : b] = a < b ? a : b;
+            enf_sets_join(loose->parents, loose->corners[i].triangle, loose->corners[i - 1].triangle);
         }
     }
 }
@@ -169,7 +160,7 @@ static bool settle_node(Loose *loose, uint32_t first, uint32_t end) {
     if (ok) {
         unite(loose, first, end);
         for (uint32_t i = first; i < end; i++) {
-            keys[i - first] = (Key){find(loose->parents, i), loose->triangles[i]};
+            keys[i - first] = (Key){enf_sets_find(loose->parents, i), loose->triangles[i]};
         }
         qsort(keys, count, sizeof *keys, compare_key);
         for (uint32_t i = 0, from = 0; i < count; i++) {
