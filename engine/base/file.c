@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 enum {
-    PATH_SIZE = 4096,           /* PATH_MAX of Linux */
     TEMP_TRIES = 1000,          /* names tried for the temporary */
     FIRST_STEP = 1 << 16,       /* first block for a file that does not know its size (a pipe) */
     LARGEST_TRANSFER = 1 << 30, /* one read or write; the system takes at most 2^31 - 4096 */
@@ -31,7 +30,11 @@ const EnfFileCalls *enf_file_system_calls(void) {
     return &system_calls;
 }
 
-static EnfResult system_error(EnfError *error, const char *what, const char *path) {
+const EnfFileCalls *enf_file_calls(void) {
+    return calls;
+}
+
+EnfResult enf_file_system_error(EnfError *error, const char *what, const char *path) {
     int number = errno;
     EnfResult code = enf_error_set(error, ENF_ERROR_IO, UINT64_MAX, "%s: %s", what, strerror(number));
     return enf_error_file(error, code, path);
@@ -87,7 +90,7 @@ static EnfResult read_to_end(EnfFile *file, int fd, size_t *capacity, size_t max
         size_t got;
         uint8_t *end = file->data ? file->data + file->size : NULL; /* NULL + 0 is undefined too */
         if (!read_up_to(fd, end, *capacity - file->size, &got)) {
-            return system_error(error, "cannot read", "");
+            return enf_file_system_error(error, "cannot read", "");
         }
         file->size += got;
         if (file->size < *capacity) {
@@ -95,7 +98,7 @@ static EnfResult read_to_end(EnfFile *file, int fd, size_t *capacity, size_t max
         }
         uint8_t next;
         if (!read_up_to(fd, &next, 1, &got)) {
-            return system_error(error, "cannot read", "");
+            return enf_file_system_error(error, "cannot read", "");
         }
         if (got == 0) {
             return ENF_OK;
@@ -115,7 +118,7 @@ static EnfResult read_to_end(EnfFile *file, int fd, size_t *capacity, size_t max
 static EnfResult read_opened(EnfFile *file, int fd, size_t max_size, EnfError *error) {
     struct stat status;
     if (calls->fstat(fd, &status) != 0) {
-        return system_error(error, "cannot read", "");
+        return enf_file_system_error(error, "cannot read", "");
     }
     if (S_ISDIR(status.st_mode)) {
         return enf_error_set(error, ENF_ERROR_IO, UINT64_MAX, "cannot read: it is a directory");
@@ -144,7 +147,7 @@ EnfResult enf_file_read(EnfFile *file, const char *path, size_t max_size, const 
     int fd = calls->open(path, O_RDONLY | O_CLOEXEC, 0);
     if (fd < 0) {
         *file = (EnfFile){NULL, 0, NULL};
-        return system_error(error, "cannot open", path);
+        return enf_file_system_error(error, "cannot open", path);
     }
     EnfResult result = read_opened(file, fd, max_size, error);
     calls->close(fd);
@@ -162,7 +165,7 @@ void enf_file_free(EnfFile *file) {
 
 /* ---- writing ---------------------------------------------------------------------------------------------------- */
 
-static bool write_span(int fd, EnfSpan span) {
+bool enf_file_write_span(int fd, EnfSpan span) {
     const uint8_t *data = span.data;
     size_t done = 0;
     while (done < span.size) {
@@ -181,7 +184,7 @@ static bool write_span(int fd, EnfSpan span) {
 
 static bool write_spans(int fd, const EnfSpan *spans, size_t span_count) {
     for (size_t i = 0; i < span_count; i++) {
-        if (!write_span(fd, spans[i])) {
+        if (!enf_file_write_span(fd, spans[i])) {
             return false;
         }
     }
@@ -201,16 +204,16 @@ static bool write_and_close(int fd, const EnfSpan *spans, size_t span_count, boo
 static EnfResult write_in_place(const char *path, const EnfSpan *spans, size_t span_count, EnfError *error) {
     int fd = calls->open(path, O_WRONLY | O_CLOEXEC, 0);
     if (fd < 0) {
-        return system_error(error, "cannot open for writing", path);
+        return enf_file_system_error(error, "cannot open for writing", path);
     }
-    return write_and_close(fd, spans, span_count, false) ? ENF_OK : system_error(error, "cannot write", path);
+    return write_and_close(fd, spans, span_count, false) ? ENF_OK : enf_file_system_error(error, "cannot write", path);
 }
 
 /* The folder part of `path` with its slash, "" for none. */
 static bool folder_of(char *folder, const char *path) {
     const char *slash = strrchr(path, '/');
     size_t length = slash ? (size_t)(slash - path) + 1 : 0;
-    if (length >= PATH_SIZE) {
+    if (length >= ENF_PATH_SIZE) {
         errno = ENAMETOOLONG;
         return false;
     }
@@ -223,8 +226,8 @@ static bool folder_of(char *folder, const char *path) {
  * the user makes (mkstemp's would be private). */
 static int open_temporary(char *temporary, const char *folder) {
     for (unsigned i = 0; i < TEMP_TRIES; i++) {
-        int length = snprintf(temporary, PATH_SIZE, "%s.enf-%ld-%u.tmp", folder, (long)getpid(), i);
-        if (length < 0 || length >= PATH_SIZE) {
+        int length = snprintf(temporary, ENF_PATH_SIZE, "%s.enf-%ld-%u.tmp", folder, (long)getpid(), i);
+        if (length < 0 || length >= ENF_PATH_SIZE) {
             errno = ENAMETOOLONG;
             return -1;
         }
@@ -237,7 +240,11 @@ static int open_temporary(char *temporary, const char *folder) {
 }
 
 /* Makes the rename itself durable. Some file systems cannot flush a folder and say EINVAL: nothing more can be done. */
-static bool flush_folder(const char *folder) {
+bool enf_file_flush_folder(const char *path) {
+    char folder[ENF_PATH_SIZE];
+    if (!folder_of(folder, path)) {
+        return false;
+    }
     int fd = calls->open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0);
     if (fd < 0) {
         return false;
@@ -254,10 +261,10 @@ EnfResult enf_file_write(const char *path, const EnfSpan *spans, size_t span_cou
     if (calls->stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
         return write_in_place(path, spans, span_count, error);
     }
-    char folder[PATH_SIZE], temporary[PATH_SIZE];
+    char folder[ENF_PATH_SIZE], temporary[ENF_PATH_SIZE];
     int fd = folder_of(folder, path) ? open_temporary(temporary, folder) : -1;
     if (fd < 0) {
-        return system_error(error, "cannot make a temporary file beside it", path);
+        return enf_file_system_error(error, "cannot make a temporary file beside it", path);
     }
     const char *failed = NULL;
     if (!write_and_close(fd, spans, span_count, true)) {
@@ -266,9 +273,9 @@ EnfResult enf_file_write(const char *path, const EnfSpan *spans, size_t span_cou
         failed = "cannot rename the temporary file";
     }
     if (failed) {
-        EnfResult result = system_error(error, failed, path);
+        EnfResult result = enf_file_system_error(error, failed, path);
         calls->unlink(temporary);
         return result;
     }
-    return flush_folder(folder) ? ENF_OK : system_error(error, "written, but cannot flush its folder", path);
+    return enf_file_flush_folder(path) ? ENF_OK : enf_file_system_error(error, "written, but cannot flush its folder", path);
 }

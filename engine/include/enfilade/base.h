@@ -170,6 +170,21 @@ typedef struct EnfSpan {
 /** Writes the spans to a temporary beside `path`, fsyncs, and renames: either the old file or the whole new one exists. */
 EnfResult enf_file_write(const char *path, const EnfSpan *spans, size_t span_count, EnfError *error);
 
+/** A file that grows while its writer lives: bytes go to `path`.part and are with the system when enf_stream_write returns,
+ *  so they outlive a crash of this process (not one of the machine); enf_stream_finish makes them `path`, durably. What is no
+ *  regular file (a pipe, a terminal) is written in place. */
+typedef struct EnfStream EnfStream;
+
+/** Errors: ENF_ERROR_MEMORY, ENF_ERROR_IO; `*stream` is then NULL. `allocator` may be NULL. */
+EnfResult enf_stream_create(EnfStream **stream, const char *path, const EnfAllocator *allocator, EnfError *error);
+/** Appends. After an error `path`.part may end with a part of `data`. No heap call. */
+EnfResult enf_stream_write(EnfStream *stream, const void *data, size_t size, EnfError *error);
+/** Flushes to the disk, closes and renames; afterwards the stream can only be destroyed. After an error `path` is as it was
+ *  and `path`.part is left (but for an error that says that it was renamed). */
+EnfResult enf_stream_finish(EnfStream *stream, EnfError *error);
+/** Closes and frees. A stream that was not finished leaves `path`.part there, or removes it if not `keep`. NULL is allowed. */
+void enf_stream_destroy(EnfStream *stream, bool keep);
+
 /* ---- log -------------------------------------------------------------------------------------------------------- */
 
 typedef enum EnfLogLevel { ENF_LOG_INFO, ENF_LOG_WARNING, ENF_LOG_ERROR } EnfLogLevel;
