@@ -66,6 +66,15 @@ static float far_high(const EnfDbvPool *pool, float x) {
     return (double)x > pool->bound ? INFINITY : x;
 }
 
+static void set_lane(const EnfDbvPool *pool, EnfKdBlock *boxes, uint32_t lane, EnfBox3f box) {
+    boxes->min_x[lane] = far_low(pool, box.min.x);
+    boxes->min_y[lane] = far_low(pool, box.min.y);
+    boxes->min_z[lane] = far_low(pool, box.min.z);
+    boxes->max_x[lane] = far_high(pool, box.max.x);
+    boxes->max_y[lane] = far_high(pool, box.max.y);
+    boxes->max_z[lane] = far_high(pool, box.max.z);
+}
+
 bool enf_dbv_link(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
     EnfDbvPool *pool = &index->pool;
     EnfDbvVolume *volume = &index->volumes[object];
@@ -82,15 +91,15 @@ bool enf_dbv_link(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f 
     }
     EnfDbvBlock *block = enf_dbv_block(pool, head);
     uint32_t lane = block->count++;
-    block->boxes.min_x[lane] = far_low(pool, box.min.x);
-    block->boxes.min_y[lane] = far_low(pool, box.min.y);
-    block->boxes.min_z[lane] = far_low(pool, box.min.z);
-    block->boxes.max_x[lane] = far_high(pool, box.max.x);
-    block->boxes.max_y[lane] = far_high(pool, box.max.y);
-    block->boxes.max_z[lane] = far_high(pool, box.max.z);
+    set_lane(pool, &block->boxes, lane, box);
     block->boxes.item[lane] = object * ENF_DBV_LINKS + volume->link_count;
     volume->links[volume->link_count++] = head * ENF_KD_BLOCK + lane;
     return true;
+}
+
+void enf_dbv_relink(EnfDbvIndex *index, uint32_t object, EnfBox3f box) {
+    uint32_t slot = index->volumes[object].links[0];
+    set_lane(&index->pool, &enf_dbv_block(&index->pool, slot / ENF_KD_BLOCK)->boxes, slot % ENF_KD_BLOCK, box);
 }
 
 static void copy_lane(EnfKdBlock *to, uint32_t a, const EnfKdBlock *from, uint32_t b) {

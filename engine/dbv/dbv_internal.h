@@ -1,7 +1,9 @@
 /* The parts of an EnfDbvIndex and the steps between its files:
  *
  *   blocks.c  the boxes of volumes at their places, eight a block
- *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; covers, LCA
+ *   places.c  where volumes hang: nodes of the tree over cells, cells, nodes of a cell's kd-tree; LCA
+ *   fit.c     boxes about what hangs on a place and beneath
+ *   seen.c    which cells are seen, and how far a box is from them
  *   wheel.c   the expiry queue
  *   period.c  how long a volume is valid (the policies)
  *   reach.c   where an object may get that passes no wall
@@ -14,8 +16,7 @@
 
 #include <enfilade/dbv.h>
 
-/** Places that one volume hangs on at most. More would cover it tighter and cost more to move: four cells meet in a corner of
- *  rooms, and one is for what lies in no room. */
+/** Places that one volume hangs on at most. Most hang on one; on several only what stays within the cells that it can walk to. */
 #define ENF_DBV_LINKS 5U
 
 /** A volume: 64 bytes, a cache line. Its box stands where it hangs. */
@@ -55,16 +56,23 @@ static inline EnfDbvBlock *enf_dbv_block(const EnfDbvPool *pool, uint32_t number
 
 /* ---- places ----------------------------------------------------------------------------------------------------- */
 
-/** All places: first the nodes of the map's tree over cells, then the cells, then the kd nodes of all cells. */
+/** What hangs on a place: no box of its volumes reaches out of these (fit.c). */
+typedef struct EnfDbvFit {
+    EnfBox3f own, all; /**< on the place itself; there and on all places beneath. World; empty: min > max */
+    bool loose;        /**< something was taken out since `own` was fitted */
+} EnfDbvFit;
+
+/** All places: the nodes of the map's tree over cells, the cells, the kd nodes of all cells; and again the cells, for what can walk
+ *  into these cells alone and is looked at only when they are seen. */
 typedef struct EnfDbvPlaces {
     const EnfMap *map;
-    uint32_t cells_first, nodes_first, count;
+    uint32_t cells_first, nodes_first, walks_first, count;
     uint32_t *parents;   /**< ENF_NONE at the root of the cells' tree and for the OUTSIDE cell */
     uint32_t *heads;     /**< a place: first block, or ENF_NONE */
-    uint32_t *below;     /**< a place within a cell (kd nodes): entries there and beneath; others 0 */
+    uint32_t *below;     /**< a kd node: entries there and beneath */
     EnfBox3 *boxes;      /**< of nodes and cells, world */
-    bool *shared;        /**< a node or cell: cells from elsewhere reach into its box */
-    uint32_t *hot_frame; /**< a place that is or holds a seen cell: the frame that saw it */
+    EnfDbvFit *fits;     /**< of nodes and cells */
+    uint32_t *hot_frame; /**< a node or cell that is or holds a seen cell: the frame that saw it */
 } EnfDbvPlaces;
 
 /** The wheel: a slot a tick, 18 minutes a turn. */
@@ -101,12 +109,13 @@ struct EnfDbvIndex {
     uint32_t volume_count, volume_capacity, alive_count;
     EnfDbvExposure *exposures;
     uint32_t exposure_count, exposure_capacity;
-    EnfDbvList due, disturbed, drawn, candidates;
-    uint32_t frame;     /**< stamps; 0 never */
-    uint32_t hot_frame; /**< the frame whose seen cells count as seen: the last that saw any */
-    bool first;         /**< the world's objects have not been taken in yet, or memory ran out while a volume was hung */
-    bool reaches;       /**< the map's portals allow it, and the policy asks for it */
-    bool failed;        /**< memory ran out in this frame: something may be missing */
+    EnfDbvList due, drawn, candidates;
+    double room;            /**< metres: the mean of the longest sides of cells */
+    uint32_t frame;         /**< stamps; 0 never */
+    uint32_t hot_frame;     /**< the frame whose seen cells count as seen: the last that saw any */
+    bool first;             /**< the world's objects have not been taken in yet, or memory ran out while a volume was hung */
+    EnfBox3f *portal_boxes; /**< where the map's portals allow REACH, and the policy asks for it; else NULL */
+    bool failed;            /**< memory ran out in this frame: something may be missing */
     EnfDbvCounters counters, total;
 };
 
@@ -117,6 +126,8 @@ size_t enf_dbv_pool_bytes(const EnfDbvPool *pool);
 bool enf_dbv_link(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box);
 /** Takes a box out; the place it was on. The record that it belongs to is left to the caller. */
 uint32_t enf_dbv_unlink(EnfDbvIndex *index, uint32_t slot);
+/** Another box for an object's first link. */
+void enf_dbv_relink(EnfDbvIndex *index, uint32_t object, EnfBox3f box);
 EnfBox3f enf_dbv_lane(const EnfKdBlock *boxes, uint32_t lane);
 /** A pyramid relative to a cell's origin, as planes that test the world boxes of blocks: never tighter. */
 void enf_dbv_planes(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid, EnfSimdPlanes *out);
@@ -124,24 +135,33 @@ void enf_dbv_planes(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *p
 /* places.c */
 EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const EnfAllocator *allocator, EnfError *error);
 void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator);
+size_t enf_dbv_places_bytes(const EnfDbvPlaces *places);
+/** As enf_world_touches has it: an overlap of more than a grid step. */
+bool enf_dbv_box_touches(const EnfBox3 *place, const EnfBox3 *box);
 void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
-/** Hangs an object's volume on the deepest places that cover it, at most ENF_DBV_LINKS, seen ones split first. `from`: a place to
- *  begin the climb at (the volume's old one), or ENF_NONE for the root. True if one of the places holds a cell seen in the last
- *  frame. Without memory, the index takes all objects in again in the next frame. */
-bool enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, uint32_t from);
-/** The place that an object's volume hangs on first, or ENF_NONE. */
-uint32_t enf_dbv_place_of(const EnfDbvIndex *index, uint32_t object);
-/** Does `box` touch no more cells than a volume hangs on? */
-bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f box);
-/** The distance from `box` to the nearest cell seen in the last frame; below 0 if it touches one, HUGE_VAL if none was seen. */
-double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
-
-/** The cells that a box touches, if no more than a volume hangs on; else 0. */
-uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f box, uint32_t cells[ENF_DBV_LINKS]);
-/** Was a cell seen in the last frame? */
-bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell);
+/** Hangs an object's volume in place of its old one: found from the old place upwards, or from the root (EnfDbvUpdate). Without
+ *  memory, the index takes all objects in again in the next frame. */
+void enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume);
 /** Hangs a box on a place and counts it. Without memory, the index takes all objects in again in the next frame. */
 void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box);
+
+/* fit.c */
+/** Nothing hangs anywhere. */
+void enf_dbv_fits_clear(EnfDbvPlaces *places);
+/** A box was hung on a place. */
+void enf_dbv_grow(EnfDbvPlaces *places, uint32_t place, EnfBox3f box);
+/** Fits the box of a node's or cell's own volumes, and those above. @cost its volumes */
+void enf_dbv_fit(EnfDbvIndex *index, uint32_t place);
+
+/* seen.c */
+/** Was a cell seen in the last frame? */
+bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell);
+/** The cells that a box touches; ENF_NONE if they are more than a volume hangs on. */
+uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f box, uint32_t cells[ENF_DBV_LINKS]);
+bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f box);
+/** The distance from `box` to the nearest cell seen in the last frame, or a little less; below 0 if it touches one, HUGE_VAL if none
+ *  was seen. */
+double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
 
 /* reach.c */
 /** The cells that a confined object touches until it has gone `limit` metres, and how far each is at least. */
@@ -152,6 +172,8 @@ typedef struct EnfDbvReach {
 } EnfDbvReach;
 /** Can a map's portals be walked back wherever they are walked through? Else nothing is reached but by flight. */
 bool enf_dbv_can_reach(const EnfMap *map);
+/** The boxes of all portals (world), one each. */
+void enf_dbv_reach_boxes(const EnfMap *map, EnfBox3f *boxes);
 /** False where the object stands in a seen cell, in none, in too many, or at the end of its reach already. */
 bool enf_dbv_reach(EnfDbvIndex *index, EnfBox3f now, EnfDbvReach *reach);
 /** Hangs `volume`, made for a way shorter than the limit, in the cells of a reach alone. */
@@ -166,7 +188,7 @@ bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick);
 
 /* period.c */
 /** Why a volume is made anew. */
-typedef enum EnfDbvCause { ENF_DBV_NEW, ENF_DBV_UNSEEN, ENF_DBV_SEEN, ENF_DBV_DRAWN, ENF_DBV_DISTURBED } EnfDbvCause;
+typedef enum EnfDbvCause { ENF_DBV_NEW, ENF_DBV_UNSEEN, ENF_DBV_SEEN, ENF_DBV_DRAWN } EnfDbvCause;
 /** Does this policy choose volumes off the seen cells? */
 bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index);
 /** Ticks that the volume of a drawn object is made for, under such a policy. */

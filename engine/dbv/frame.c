@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-/* Sleepers found on a node of the cells' tree above a seen cell are hung anew, lower down, so many a frame: the eye's approach is
- * paid for in instalments. Until then they are tested, never missed. */
-#define DISTURBED_A_FRAME 64U
+/* Objects that were exposed and not drawn get new volumes, so many a frame: when a long view opens, it is paid for in instalments.
+ * The others are exposed again in the next frame, which costs less. */
+#define RENEWED_A_FRAME 128U
 
 /* ---- begin ------------------------------------------------------------------------------------------------------ */
 
@@ -93,14 +93,13 @@ static bool renew_expired(EnfDbvIndex *index) {
 EnfResult enf_dbv_begin(EnfDbvIndex *index, EnfError *error) {
     memset(&index->counters, 0, sizeof index->counters);
     index->exposure_count = 0;
-    index->disturbed.count = 0;
     index->drawn.count = 0;
     index->failed = false;
     bool ok = renew_expired(index);
     ok = take_in_changes(index) && ok && !index->failed;
     index->frame++;
     if (index->frame == 0) { /* stamps of the last round must not look new */
-        memset(index->places.hot_frame, 0, index->places.count * sizeof *index->places.hot_frame);
+        memset(index->places.hot_frame, 0, index->places.nodes_first * sizeof *index->places.hot_frame);
         for (uint32_t i = 0; i < index->volume_count; i++) {
             index->volumes[i].exposed_frame = 0;
         }
@@ -138,27 +137,38 @@ static bool shows(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyr
 /* A window as the steps of one enf_dbv_see use it. */
 typedef struct Look {
     uint32_t cell;
+    EnfBox3 box;               /* the cell's, world */
     const EnfPyramid *pyramid; /* relative to the cell */
     const EnfSimd *simd;
     EnfSimdPlanes planes; /* of world boxes */
 } Look;
 
-/* Objects of one block whose volumes the window shows. */
-static void gather(EnfDbvIndex *index, const Look *look, const EnfDbvBlock *block, uint32_t mask) {
+static bool is_near(const Look *look, const EnfBox3f *fit) {
+    EnfBox3 box = enf_box3_from_f(*fit);
+    return enf_dbv_box_touches(&look->box, &box);
+}
+
+/* Objects of one block whose volumes the window shows; how many. */
+static uint32_t gather(EnfDbvIndex *index, const Look *look, const EnfDbvBlock *block, uint32_t mask) {
+    uint32_t count = 0;
     for (uint32_t shown = mask & 0xff; shown != 0; shown &= shown - 1) {
         uint32_t lane = enf_simd_lowest(shown);
         uint32_t object = block->boxes.item[lane] / ENF_DBV_LINKS;
-        if (enf_world_touches(index->map, look->cell, enf_dbv_lane(&block->boxes, lane))) {
+        EnfBox3f box = enf_dbv_lane(&block->boxes, lane);
+        if (is_near(look, &box)) {
             enf_dbv_prefetch(&index->volumes[object]);
             enf_world_prefetch(index->world, object);
             index->failed = !enf_dbv_list_add(index, &index->candidates, object) || index->failed;
+            count++;
         }
     }
+    return count;
 }
 
-/* Every volume that hangs on a place. `high`: a node of the cells' tree, where those who would rather sleep should not hang. */
-static void test_place(EnfDbvIndex *index, uint32_t place, const Look *look, bool high) {
+/* Every volume that hangs on a place; how many the window shows. */
+static uint32_t test_place(EnfDbvIndex *index, uint32_t place, const Look *look) {
     uint32_t number = index->places.heads[place];
+    uint32_t count = 0;
     while (number != ENF_NONE) {
         const EnfDbvBlock *block = enf_dbv_block(&index->pool, number);
         number = block->next;
@@ -167,17 +177,16 @@ static void test_place(EnfDbvIndex *index, uint32_t place, const Look *look, boo
         }
         uint32_t mask = look->simd->boxes(&look->planes, block->boxes.min_x, look->planes.all);
         index->counters.tested += block->count;
-        gather(index, look, block, mask);
-        for (uint32_t lane = 0; high && lane < block->count && index->disturbed.count < DISTURBED_A_FRAME; lane++) {
-            (void)enf_dbv_list_add(index, &index->disturbed, block->boxes.item[lane] / ENF_DBV_LINKS);
-        }
+        count += gather(index, look, block, mask);
     }
+    return count;
 }
 
-/* The kd nodes of a cell that the pyramid passes and that have entries at or beneath them. */
-static void test_tree(EnfDbvIndex *index, const Look *look) {
+/* The kd nodes of a cell that the pyramid passes and that have entries at or beneath them. Of another cell than the seen one, whose
+ * box it reaches into, all. */
+static void test_tree(EnfDbvIndex *index, uint32_t cell, const Look *look) {
     const EnfDbvPlaces *places = &index->places;
-    const EnfCell *c = &index->map->cells[look->cell];
+    const EnfCell *c = &index->map->cells[cell];
     uint32_t first = places->nodes_first + c->node_first;
     uint32_t stack[ENF_KD_MAX_DEPTH + 1];
     uint32_t depth = 0;
@@ -188,16 +197,64 @@ static void test_tree(EnfDbvIndex *index, const Look *look) {
         uint32_t at = stack[--depth];
         const EnfKdNode *node = &index->map->kd_nodes[c->node_first + at];
         EnfBox3f box = {{node->min[0], node->min[1], node->min[2]}, {node->max[0], node->max[1], node->max[2]}};
-        if (!enf_pyramid_box(look->pyramid, box)) {
+        if (cell == look->cell && !enf_pyramid_box(look->pyramid, box)) {
             continue;
         }
-        test_place(index, first + at, look, false);
+        (void)test_place(index, first + at, look);
         const uint32_t pair[2] = {at + 1, node->link};
         for (uint32_t i = 0; i < 2 && node->block_count == 0; i++) {
             if (places->below[first + pair[i]] > 0) {
                 stack[depth++] = pair[i];
             }
         }
+    }
+}
+
+/* A node's or cell's own volumes. A look that came for nothing fits the box that led to it. */
+static void test_own(EnfDbvIndex *index, uint32_t place, const Look *look) {
+    const EnfDbvFit *fit = &index->places.fits[place];
+    if (is_near(look, &fit->own) && test_place(index, place, look) == 0 && fit->loose) {
+        enf_dbv_fit(index, place);
+    }
+}
+
+static void test_cell(EnfDbvIndex *index, uint32_t cell, const Look *look) {
+    uint32_t place = index->places.cells_first + cell;
+    if (is_near(look, &index->places.fits[place].all)) {
+        test_tree(index, cell, look);
+        test_own(index, place, look);
+    }
+}
+
+/* All places whose volumes reach into the seen cell. */
+static void test_all(EnfDbvIndex *index, const Look *look) {
+    const EnfMap *map = index->map;
+    uint32_t stack[ENF_KD_MAX_DEPTH + 1];
+    uint32_t depth = 0;
+    if (map->cell_nodes_count > 0) {
+        stack[depth++] = 0;
+    }
+    while (depth > 0) {
+        uint32_t at = stack[--depth];
+        const EnfKdNode *node = &map->cell_nodes[at];
+        if (!is_near(look, &index->places.fits[at].all)) {
+            continue;
+        }
+        test_own(index, at, look);
+        if (node->block_count == 0) {
+            stack[depth++] = node->link;
+            stack[depth++] = at + 1;
+            continue;
+        }
+        for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
+            uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
+            if (cell != ENF_NONE) {
+                test_cell(index, cell, look);
+            }
+        }
+    }
+    if (index->places.parents[index->places.cells_first + look->cell] == ENF_NONE) {
+        test_cell(index, look->cell, look); /* OUTSIDE: what lies in no room */
     }
 }
 
@@ -213,22 +270,19 @@ static void expose_candidates(EnfDbvIndex *index, const Look *look) {
 
 void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
     EnfDbvPlaces *places = &index->places;
-    uint32_t place = places->cells_first + cell;
     Look look;
     look.cell = cell;
+    look.box = places->boxes[places->cells_first + cell];
     look.pyramid = pyramid;
     look.simd = enf_simd();
     enf_dbv_planes(index, cell, pyramid, &look.planes);
     index->hot_frame = index->frame;
     index->candidates.count = 0;
-    test_place(index, place, &look, false);
-    test_tree(index, &look);
-    for (; place != ENF_NONE; place = places->parents[place]) {
+    for (uint32_t place = places->cells_first + cell; place != ENF_NONE; place = places->parents[place]) {
         places->hot_frame[place] = index->frame;
-        if (place < places->cells_first) {
-            test_place(index, place, &look, true);
-        }
     }
+    (void)test_place(index, places->walks_first + cell, &look);
+    test_all(index, &look);
     expose_candidates(index, &look);
 }
 
@@ -248,21 +302,12 @@ static bool stays(const EnfDbvIndex *index, const EnfDbvExposure *exposure) {
 
 /* New volumes for what was exposed. */
 static void renew_exposed(EnfDbvIndex *index) {
+    uint32_t renewed = 0;
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];
-        if (!stays(index, exposure)) {
+        if (!stays(index, exposure) && (exposure->drawn || renewed < RENEWED_A_FRAME)) {
             enf_dbv_renew(index, exposure->object, exposure->drawn ? ENF_DBV_DRAWN : ENF_DBV_SEEN);
-        }
-    }
-}
-
-static void renew_disturbed(EnfDbvIndex *index) {
-    for (uint32_t i = 0; i < index->disturbed.count && enf_dbv_keeps_off_seen(index); i++) {
-        uint32_t object = index->disturbed.items[i];
-        const EnfDbvVolume *volume = &index->volumes[object];
-        bool fresh = volume->expiry_tick - (int64_t)volume->period == enf_world_tick(index->world);
-        if (volume->exposed_frame != index->frame && !fresh) {
-            enf_dbv_renew(index, object, ENF_DBV_DISTURBED);
+            renewed += exposure->drawn ? 0U : 1U;
         }
     }
 }
@@ -292,7 +337,6 @@ const uint32_t *enf_dbv_end(EnfDbvIndex *index, uint32_t *count) {
     enf_dbv_sort(index, &index->drawn, ascending);
     index->counters.drawn = index->drawn.count;
     renew_exposed(index);
-    renew_disturbed(index);
     uint64_t touched = index->counters.exposed + index->counters.expired;
     index->counters.avoided = index->alive_count > touched ? index->alive_count - touched : 0;
     add_counters(&index->total, &index->counters);

@@ -24,6 +24,19 @@ static double farthest_cell(const EnfMap *map) {
     return farthest + 1.0;
 }
 
+/* How long a room is, in the mean. */
+static double room_length(const EnfMap *map) {
+    double sum = 0.0;
+    for (uint32_t c = 0; c < map->cells_count; c++) {
+        const EnfCell *cell = &map->cells[c];
+        double x = (double)cell->max[0] - (double)cell->min[0];
+        double y = (double)cell->max[1] - (double)cell->min[1];
+        double z = (double)cell->max[2] - (double)cell->min[2];
+        sum += fmax(x, fmax(y, z));
+    }
+    return map->cells_count > 0 ? sum / (double)map->cells_count : 0.0;
+}
+
 EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *def, const EnfAllocator *allocator,
                          EnfError *error) {
     *out = NULL;
@@ -37,11 +50,20 @@ EnfResult enf_dbv_create(EnfDbvIndex **out, EnfWorld *world, const EnfDbvDef *de
     index->allocator = allocator;
     index->def = *def;
     index->first = true;
-    index->reaches = def->policy == ENF_DBV_REACH && enf_dbv_can_reach(index->map);
     index->pool.free_head = ENF_NONE;
     index->pool.bound = farthest_cell(index->map);
+    index->room = room_length(index->map);
     enf_dbv_wheel_create(&index->wheel, enf_world_tick(world));
     EnfResult result = enf_dbv_places_create(&index->places, index->map, allocator, error);
+    if (result == ENF_OK && def->policy == ENF_DBV_REACH && enf_dbv_can_reach(index->map)) {
+        index->portal_boxes = enf_alloc(allocator, (size_t)index->map->portals_count + 1, sizeof *index->portal_boxes);
+        if (index->portal_boxes == NULL) {
+            enf_dbv_places_destroy(&index->places, allocator);
+            result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "boxes of %u portals", index->map->portals_count);
+        } else {
+            enf_dbv_reach_boxes(index->map, index->portal_boxes);
+        }
+    }
     if (result != ENF_OK) {
         enf_free(allocator, index, 1, sizeof *index);
         return result;
@@ -59,11 +81,11 @@ void enf_dbv_destroy(EnfDbvIndex *index) {
         return;
     }
     enf_dbv_places_destroy(&index->places, index->allocator);
+    enf_free(index->allocator, index->portal_boxes, (size_t)index->map->portals_count + 1, sizeof *index->portal_boxes);
     enf_dbv_pool_destroy(&index->pool, index->allocator);
     enf_free(index->allocator, index->volumes, index->volume_capacity, sizeof *index->volumes);
     enf_free(index->allocator, index->exposures, index->exposure_capacity, sizeof *index->exposures);
     free_list(index, &index->due);
-    free_list(index, &index->disturbed);
     free_list(index, &index->drawn);
     free_list(index, &index->candidates);
     enf_free(index->allocator, index, 1, sizeof *index);
@@ -162,9 +184,9 @@ bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume,
 }
 
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
-    size_t lists = index->due.capacity + index->disturbed.capacity + index->drawn.capacity + index->candidates.capacity;
-    size_t place = 4 * sizeof(uint32_t) + sizeof(bool);
-    return sizeof *index + enf_dbv_pool_bytes(&index->pool) + index->volume_capacity * sizeof *index->volumes +
-           lists * sizeof(uint32_t) + index->exposure_capacity * sizeof *index->exposures +
-           ((size_t)index->places.count + 1) * place + ((size_t)index->places.nodes_first + 1) * sizeof(EnfBox3);
+    size_t lists = index->due.capacity + index->drawn.capacity + index->candidates.capacity;
+    size_t portals = index->portal_boxes == NULL ? 0 : (size_t)index->map->portals_count + 1;
+    return sizeof *index + portals * sizeof *index->portal_boxes + enf_dbv_pool_bytes(&index->pool) +
+           index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
+           index->exposure_capacity * sizeof *index->exposures + enf_dbv_places_bytes(&index->places);
 }

@@ -6,8 +6,6 @@
 
 /* A drawn object will be drawn again: its volume is renewed a few times a second, and is hardly looser than itself. */
 #define DRAWN_PERIOD ((uint32_t)ENF_DBV_DRAWN_PERIOD)
-/* Halvings while a cover holds a seen cell: below it the volume stays, and is tested in the frames that see that cell. */
-#define COVER_TRIES 2U
 /* How much of the way to the nearest seen cell a volume may take. All of it would need the fewest renewals; but then, when a door
  * comes into sight, the volumes of half the world reach into the room behind it, and that frame wakes them all (PITFALLS 23).
  * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). */
@@ -107,8 +105,6 @@ static uint32_t adaptive(const EnfDbvIndex *index, uint32_t last, EnfDbvCause ca
     case ENF_DBV_SEEN:
     case ENF_DBV_DRAWN:
         return clamp_period(index, 0.5 * (double)last);
-    case ENF_DBV_DISTURBED:
-        break;
     }
     return last;
 }
@@ -162,19 +158,16 @@ bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index) {
     return index->def.policy == ENF_DBV_MAXIMAL || index->def.policy == ENF_DBV_REACH;
 }
 
-/* Hangs the volume of `period` ticks. True if its places hold a seen cell. */
-static bool hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
+static void hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
     EnfDbvVolume *volume = &index->volumes[object];
-    uint32_t from = index->def.update == ENF_DBV_LCA ? enf_dbv_place_of(index, object) : ENF_NONE;
-    EnfBox3f box = bound_for(index, object, period);
     volume->period = period;
     volume->expiry_tick = enf_world_tick(index->world) + (int64_t)period;
-    enf_dbv_unhang(index, object);
     index->counters.reinserted++;
-    return enf_dbv_hang(index, object, box, from);
+    enf_dbv_hang(index, object, bound_for(index, object, period));
 }
 
-/* A volume that hangs only where the object can walk to, if it lasts longer than `period`. */
+/* A volume that hangs only where the object can walk to, if it lasts longer than `period`. Few rooms hold it, so that it is not
+ * worth asking for what flies farther than a room is long. */
 static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period) {
     EnfDbvReach reach;
     EnfBox3f now = bound_for(index, object, 0);
@@ -207,16 +200,12 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
         period = spread(period, object);
     }
     enf_dbv_wheel_remove(index, object);
-    bool walks = index->reaches && index->hot_frame != 0 && cause != ENF_DBV_DRAWN;
+    double way = enf_world_max_speed(index->world, object) * (double)period / ENF_TICK_RATE;
+    bool walks = index->portal_boxes != NULL && index->hot_frame != 0 && cause != ENF_DBV_DRAWN && way < index->room;
     if (walks && enf_world_is_confined(index->world, object) && hang_reaching(index, object, period)) {
         enf_dbv_wheel_add(index, object);
         return;
     }
-    bool seen = hang(index, object, period);
-    bool sleeps = cause != ENF_DBV_DRAWN && enf_dbv_keeps_off_seen(index);
-    for (uint32_t i = 0; i < COVER_TRIES && seen && sleeps && period > DRAWN_PERIOD; i++) {
-        period /= 2;
-        seen = hang(index, object, period);
-    }
+    hang(index, object, period);
     enf_dbv_wheel_add(index, object);
 }

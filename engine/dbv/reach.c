@@ -13,14 +13,23 @@
 #include <math.h>
 #include <string.h>
 
-static EnfBox3 portal_box(const EnfMap *map, const EnfPortal *portal) {
+/* Portals that lead out of the cells found, at most; a room with more is not worth a flood. */
+enum { PENDING = 48 };
+
+static EnfBox3f portal_box(const EnfMap *map, const EnfPortal *portal) {
     const double *o = map->cells[portal->source].origin;
     EnfVec3 origin = enf_v3(o[0], o[1], o[2]);
     EnfBox3 box = enf_box3_empty();
     for (uint32_t v = 0; v < portal->vertex_count; v++) {
         box = enf_box3_add(box, enf_add(origin, enf_v3_from_f(map->portal_vertices[portal->vertex_first + v])));
     }
-    return box;
+    return enf_box3f_outward(box);
+}
+
+void enf_dbv_reach_boxes(const EnfMap *map, EnfBox3f *boxes) {
+    for (uint32_t p = 0; p < map->portals_count; p++) {
+        boxes[p] = portal_box(map, &map->portals[p]);
+    }
 }
 
 static double apart(double low, double high, double other_low, double other_high) {
@@ -28,10 +37,10 @@ static double apart(double low, double high, double other_low, double other_high
     return d > 0.0 ? d : 0.0;
 }
 
-static double distance(const EnfBox3 *a, const EnfBox3 *b) {
-    double x = apart(a->min.x, a->max.x, b->min.x, b->max.x);
-    double y = apart(a->min.y, a->max.y, b->min.y, b->max.y);
-    double z = apart(a->min.z, a->max.z, b->min.z, b->max.z);
+static double distance(const EnfBox3 *a, const EnfBox3f *b) {
+    double x = apart(a->min.x, a->max.x, (double)b->min.x, (double)b->max.x);
+    double y = apart(a->min.y, a->max.y, (double)b->min.y, (double)b->max.y);
+    double z = apart(a->min.z, a->max.z, (double)b->min.z, (double)b->max.z);
     return sqrt(x * x + y * y + z * z);
 }
 
@@ -44,29 +53,51 @@ static bool is_found(const EnfDbvReach *reach, uint32_t cell) {
     return false;
 }
 
-/* The nearest portal out of the cells found: its distance, or HUGE_VAL. */
-static double nearest_portal(const EnfMap *map, const EnfDbvReach *reach, const EnfBox3 *now, const EnfPortal **nearest) {
-    double best = HUGE_VAL;
-    for (uint32_t i = 0; i < reach->count; i++) {
-        const EnfCell *cell = &map->cells[reach->cells[i]];
-        for (uint32_t p = cell->portal_first; p < cell->portal_first + cell->portal_count; p++) {
-            const EnfPortal *portal = &map->portals[p];
-            if (portal->transform == ENF_NONE && is_found(reach, portal->target)) {
-                continue;
-            }
-            double d = 0.0; /* cells that overlap are entered anywhere */
-            if (portal->vertex_count > 0) {
-                EnfBox3 box = portal_box(map, portal);
-                d = distance(now, &box);
-            }
-            d = d > reach->distances[i] ? d : reach->distances[i];
-            if (d < best) {
-                best = d;
-                *nearest = portal;
-            }
+/* The portals out of the cells found, each with its distance. */
+typedef struct Pending {
+    uint32_t portals[PENDING];
+    double distances[PENDING];
+    uint32_t count;
+} Pending;
+
+/* A cell is found: its portals are pending. False if they are too many. */
+static bool add_cell(const EnfDbvIndex *index, EnfDbvReach *reach, const EnfBox3 *now, uint32_t number, double least,
+                     Pending *pending) {
+    const EnfCell *cell = &index->map->cells[number];
+    for (uint32_t p = cell->portal_first; p < cell->portal_first + cell->portal_count; p++) {
+        if (pending->count == PENDING) {
+            return false;
+        }
+        /* Cells that overlap are entered anywhere. */
+        double d = index->map->portals[p].vertex_count > 0 ? distance(now, &index->portal_boxes[p]) : 0.0;
+        pending->portals[pending->count] = p;
+        pending->distances[pending->count++] = d > least ? d : least;
+    }
+    reach->distances[reach->count] = least;
+    reach->cells[reach->count++] = number;
+    return true;
+}
+
+/* Takes out the nearest pending portal that leads on; false if there is none. */
+static bool take_nearest(const EnfMap *map, const EnfDbvReach *reach, Pending *pending, const EnfPortal **nearest, double *d) {
+    for (;;) {
+        uint32_t best = ENF_NONE;
+        for (uint32_t i = 0; i < pending->count; i++) {
+            best = best == ENF_NONE || pending->distances[i] < pending->distances[best] ? i : best;
+        }
+        if (best == ENF_NONE) {
+            return false;
+        }
+        const EnfPortal *portal = &map->portals[pending->portals[best]];
+        *nearest = portal;
+        *d = pending->distances[best];
+        pending->count--;
+        pending->portals[best] = pending->portals[pending->count];
+        pending->distances[best] = pending->distances[pending->count];
+        if (portal->transform != ENF_NONE || !is_found(reach, portal->target)) {
+            return true;
         }
     }
-    return best;
 }
 
 bool enf_dbv_can_reach(const EnfMap *map) {
@@ -81,33 +112,32 @@ bool enf_dbv_can_reach(const EnfMap *map) {
 bool enf_dbv_reach(EnfDbvIndex *index, EnfBox3f now, EnfDbvReach *reach) {
     const EnfMap *map = index->map;
     EnfBox3 box = enf_box3_from_f(now);
-    reach->count = enf_dbv_cells_of(index, now, reach->cells);
-    memset(reach->distances, 0, sizeof reach->distances);
+    uint32_t cells[ENF_DBV_LINKS];
+    uint32_t touched = enf_dbv_cells_of(index, now, cells);
+    Pending pending;
+    pending.count = 0;
+    reach->count = 0;
     reach->limit = HUGE_VAL;
-    for (uint32_t i = 0; i < reach->count; i++) {
-        bool outside = (map->cells[reach->cells[i]].flags & ENF_CELL_OUTSIDE) != 0;
-        if (outside || enf_dbv_cell_is_seen(index, reach->cells[i])) {
+    if (touched == 0 || touched == ENF_NONE) {
+        return false;
+    }
+    for (uint32_t i = 0; i < touched; i++) {
+        bool outside = (map->cells[cells[i]].flags & ENF_CELL_OUTSIDE) != 0;
+        if (outside || enf_dbv_cell_is_seen(index, cells[i]) || !add_cell(index, reach, &box, cells[i], 0.0, &pending)) {
             return false;
         }
     }
-    if (reach->count == 0) {
-        return false;
-    }
-    for (;;) {
-        const EnfPortal *portal = NULL;
-        double d = nearest_portal(map, reach, &box, &portal);
-        if (portal == NULL) {
-            return true; /* shut in */
-        }
+    const EnfPortal *portal = NULL;
+    double d = 0.0;
+    while (take_nearest(map, reach, &pending, &portal, &d)) {
         bool ends = portal->transform != ENF_NONE || reach->count == ENF_DBV_LINKS ||
                     enf_dbv_cell_is_seen(index, portal->target) || (map->cells[portal->target].flags & ENF_CELL_OUTSIDE) != 0;
-        if (ends) {
+        if (ends || !add_cell(index, reach, &box, portal->target, d, &pending)) {
             reach->limit = d;
             return d > 0.0;
         }
-        reach->distances[reach->count] = d;
-        reach->cells[reach->count++] = portal->target;
     }
+    return true; /* shut in */
 }
 
 /* All of an object's box, while it touches a cell, lies no farther from that cell than the box is long. */
@@ -125,11 +155,10 @@ void enf_dbv_hang_reach(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, En
     /* However it turns, no side of its box is longer than the diagonal of its box now, which holds two opposite corners. */
     double size = enf_length(enf_sub(here.max, here.min)) + 2.0 * ENF_GRID_STEP;
     for (uint32_t i = 0; i < reach->count; i++) {
-        uint32_t place = index->places.cells_first + reach->cells[i];
-        EnfBox3f box = part(whole, &index->places.boxes[place], size);
+        EnfBox3f box = part(whole, &index->places.boxes[index->places.cells_first + reach->cells[i]], size);
         bool near = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
         if (near && enf_world_touches(index->map, reach->cells[i], box)) {
-            enf_dbv_link_to(index, object, place, box);
+            enf_dbv_link_to(index, object, index->places.walks_first + reach->cells[i], box);
         }
     }
 }

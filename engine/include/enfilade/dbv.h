@@ -1,7 +1,7 @@
 /* Dynamic bounding volumes: what moves unseen costs nothing.
  *
- * A volume is a box that holds everything its object may occupy from now until its expiry tick. It hangs on the nodes of the map's
- * tree over cells, on cells, and on the nodes of a cell's own kd-tree. The object is left alone (not moved, animated, simulated
+ * A volume is a box that holds everything its object may occupy from now until its expiry tick. It hangs on a node of the map's
+ * tree over cells, on a cell, or on a node of a cell's own kd-tree. The object is left alone (not moved, animated, simulated
  * or asked for) until a visible window shows its volume (*exposure*) or the volume *expires*. DESIGN §5. Sources: Sudarsky &
  * Gotsman 1996 (temporal bounding volumes; update from the least common ancestor); Paunoo 2006 (with portals and kd-trees). */
 #ifndef ENFILADE_DBV_H
