@@ -15,7 +15,8 @@ EnfResult enf_map_check(const EnfMap *map, EnfError *error) {
     EnfResult result = enf_map_check_rules(&check);
     result = result ? result : enf_map_check_tables(&check);
     result = result ? result : enf_map_check_cells(&check);
-    return result ? result : enf_map_check_geometry(&check);
+    result = result ? result : enf_map_check_geometry(&check);
+    return result ? result : enf_map_check_movers(&check);
 }
 
 EnfKdTree enf_map_cell_tree(const EnfMap *map, uint32_t cell) {

@@ -20,6 +20,9 @@ _Static_assert(sizeof(EnfLight) == 72, "EnfLight");
 _Static_assert(sizeof(EnfLightRef) == 12, "EnfLightRef");
 _Static_assert(sizeof(EnfEntity) == 80, "EnfEntity");
 _Static_assert(sizeof(EnfPath) == 24, "EnfPath");
+_Static_assert(sizeof(EnfMesh) == 40, "EnfMesh");
+_Static_assert(sizeof(EnfMeshPart) == 24, "EnfMeshPart");
+_Static_assert(sizeof(EnfMover) == 104, "EnfMover");
 _Static_assert(sizeof(EnfKdNode) == 32, "EnfKdNode");
 _Static_assert(sizeof(EnfKdBlock) == 224, "EnfKdBlock");
 
@@ -57,7 +60,7 @@ uint64_t enf_map_offsets(const EnfMap *map, uint64_t offsets[ENF_MAP_CHUNK_COUNT
     uint64_t at = ENF_MAP_FRONT_SIZE;
     for (int id = 0; id < ENF_MAP_CHUNK_COUNT; id++) {
         EnfMapChunk chunk = enf_map_chunk(map, (EnfMapChunkId)id);
-        /* Counts are 32 bits and records at most 224 bytes: 25 chunks stay far below 2^64. */
+        /* Counts are 32 bits and records at most 224 bytes: 28 chunks stay far below 2^64. */
         at = (at + ENF_MAP_ALIGN - 1) & ~(uint64_t)(ENF_MAP_ALIGN - 1);
         offsets[id] = at;
         at += (uint64_t)chunk.count * enf_map_chunk_info[id].record_size;

@@ -81,6 +81,7 @@ EnfResult enf_map_check_rules(const EnfMapCheck *check);    /* fields one by one
 EnfResult enf_map_check_tables(const EnfMapCheck *check);   /* images, textures, lights, entities, paths */
 EnfResult enf_map_check_cells(const EnfMapCheck *check);    /* cells, portals, transforms, bounds */
 EnfResult enf_map_check_geometry(const EnfMapCheck *check); /* clusters, indices, trees */
+EnfResult enf_map_check_movers(const EnfMapCheck *check);   /* meshes, movers */
 
 /* ---- rays (ray.c) ----------------------------------------------------------------------------------------------- */
 

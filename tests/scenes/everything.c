@@ -1,6 +1,37 @@
 /* A map with a record in every table; see everything.h. */
 #include "scenes/everything.h"
 
+/* A lift on its path, a thing that turns, a hinged door, a sliding one, a thing to carry, a guard. */
+static void put_movers(EnfMaker *m) {
+    uint32_t crate = enf_maker_mesh(m, "crate", 1, (EnfBox3){{-0.25, 0, -0.25}, {0.25, 0.5, 0.25}});
+    uint32_t leaf = enf_maker_mesh(m, "leaf", 0, (EnfBox3){{0, 0, 0}, {0.0625, 2, 1}});
+    EnfMover mover = enf_maker_mover_default();
+    mover.mesh = crate;
+    mover.flags = ENF_MOVER_SOLID | ENF_MOVER_CARRY;
+    enf_maker_mover(m, &mover);
+    mover.flags = ENF_MOVER_SOLID;
+    mover.kind = ENF_MOVER_PATH;
+    mover.translation = 0;
+    mover.wrap = ENF_WRAP_PING_PONG;
+    enf_maker_mover(m, &mover);
+    mover.translation = ENF_NONE;
+    mover.rotation = 1;
+    mover.entity = 1;
+    enf_maker_mover(m, &mover);
+    mover.rotation = ENF_NONE;
+    mover.mesh = leaf;
+    mover.kind = ENF_MOVER_HINGE;
+    mover.high = 1.5f;
+    mover.portal = 0;
+    mover.flags = ENF_MOVER_SOLID | ENF_MOVER_LOCKED;
+    enf_maker_mover(m, &mover);
+    mover.kind = ENF_MOVER_SLIDE;
+    mover.low = -1.0f;
+    enf_maker_mover(m, &mover);
+    mover.kind = ENF_MOVER_FREE;
+    enf_maker_mover(m, &mover);
+}
+
 static void put_tables(EnfMaker *m, uint32_t cell) {
     static const uint8_t rgba[2 * 2 * 4] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 255};
     uint32_t texture = enf_maker_texture(m, enf_maker_image(m, 2, 2, rgba));
@@ -27,6 +58,7 @@ static void put_tables(EnfMaker *m, uint32_t cell) {
     EnfPath turn = {path.name, 1, ENF_PATH_ROTATION, ENF_PATH_CUBIC, 1, 0};
     const float turn_floats[13] = {0.5f, [8] = 1.0f};
     enf_maker_path(m, &turn, turn_floats, 13);
+    put_movers(m);
 }
 
 /* Two rooms in a row, a cupboard in one of them, a mirror, a pair of teleports, a light through a window. */

@@ -31,11 +31,16 @@ typedef struct Reach {
     uint32_t group, cell;
 } Reach;
 
+typedef struct MeshBox {
+    uint32_t material;
+    EnfBox3 box;
+} MeshBox;
+
 struct EnfMaker {
 #define MAKER_LIST(type, array, fourcc) List array;
     ENF_MAP_CHUNKS(MAKER_LIST)
 #undef MAKER_LIST
-    List polygons, points, halves, portal_points, reaches, cluster_groups;
+    List polygons, points, halves, portal_points, reaches, cluster_groups, mesh_boxes;
     uint32_t *half_index;  /* number → map index */
     uint32_t *group_first; /* group → its first cluster */
     uint32_t group, node;
@@ -85,6 +90,7 @@ void enf_maker_destroy(EnfMaker *m) {
         free(m->portal_points.data);
         free(m->reaches.data);
         free(m->cluster_groups.data);
+        free(m->mesh_boxes.data);
         free(m->half_index);
         free(m->group_first);
         free(m);
@@ -401,6 +407,63 @@ static void finish_clusters(EnfMaker *m) {
     }
 }
 
+/* ---- meshes ----------------------------------------------------------------------------------------------------- */
+
+uint32_t enf_maker_mesh(EnfMaker *m, const char *name, uint32_t material, EnfBox3 box) {
+    EnfBox3f f = enf_box3f_outward(box);
+    MeshBox pending = {material, box};
+    EnfMesh mesh = {{f.min.x, f.min.y, f.min.z}, {f.max.x, f.max.y, f.max.z}, m->meshes.count, 1, enf_maker_string(m, name), 0};
+    ADD(m, mesh_boxes, &pending, 1);
+    ADD(m, meshes, &mesh, 1);
+    return m->meshes.count - 1;
+}
+
+EnfMover enf_maker_mover_default(void) {
+    EnfMover mover;
+    memset(&mover, 0, sizeof mover);
+    mover.mesh = mover.translation = mover.rotation = mover.scale = mover.portal = ENF_NONE;
+    mover.axis[1] = mover.rate = mover.seconds = mover.max_speed = 1.0f;
+    return mover;
+}
+
+uint32_t enf_maker_mover(EnfMaker *m, const EnfMover *mover) {
+    ADD(m, movers, mover, 1);
+    return m->movers.count - 1;
+}
+
+/* The side of a box that faces along `axis` (up or down it): four vertices, two triangles. */
+static void add_side(EnfMaker *m, EnfBox3 box, int axis, bool up) {
+    uint32_t base = m->vertices.count;
+    double n[3] = {0, 0, 0};
+    n[axis] = up ? 1.0 : -1.0;
+    for (int k = 0; k < 4; k++) {
+        int turn = up ? k : 3 - k; /* counter-clockwise from outside */
+        double p[3];
+        const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
+        p[axis] = up ? high[axis] : low[axis];
+        p[(axis + 1) % 3] = turn == 1 || turn == 2 ? high[(axis + 1) % 3] : low[(axis + 1) % 3];
+        p[(axis + 2) % 3] = turn >= 2 ? high[(axis + 2) % 3] : low[(axis + 2) % 3];
+        EnfVertex vertex = {
+            {(float)p[0], (float)p[1], (float)p[2]}, pack_normal(enf_v3(n[0], n[1], n[2])), {0, 0}, UINT32_MAX, ENF_NONE};
+        put_uv(&vertex, enf_v3(n[0], n[1], n[2]), enf_v3(p[0], p[1], p[2]));
+        ADD(m, vertices, &vertex, 1);
+    }
+    const uint32_t indices[6] = {base, base + 1, base + 2, base, base + 2, base + 3};
+    list_add(&m->indices, indices, 6, sizeof *indices);
+}
+
+static void finish_meshes(EnfMaker *m) {
+    const MeshBox *boxes = m->mesh_boxes.data;
+    for (uint32_t i = 0; i < m->mesh_boxes.count; i++) {
+        EnfMeshPart part = {i, boxes[i].material, m->indices.count, 36, m->vertices.count, 24};
+        for (int axis = 0; axis < 3; axis++) {
+            add_side(m, boxes[i].box, axis, false);
+            add_side(m, boxes[i].box, axis, true);
+        }
+        ADD(m, mesh_parts, &part, 1);
+    }
+}
+
 /* ---- trees ------------------------------------------------------------------------------------------------------ */
 
 static EnfBox3 cluster_box(const EnfMaker *m, uint32_t index) {
@@ -506,6 +569,7 @@ const EnfMap *enf_maker_finish(EnfMaker *m, EnfError *error) {
         }
     }
     finish_clusters(m);
+    finish_meshes(m);
     finish_portals(m);
     finish_trees(m);
 #define MAKER_POINT(type, array, fourcc)                                                                                       \

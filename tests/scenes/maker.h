@@ -56,6 +56,12 @@ uint32_t enf_maker_image(EnfMaker *maker, uint32_t width, uint32_t height, const
 uint32_t enf_maker_texture(EnfMaker *maker, uint32_t image);
 uint32_t enf_maker_camera(EnfMaker *maker, const EnfMapCamera *camera);
 
+/** A mesh that moves: a box of one material in its own space, fronts outward. Returns its index. */
+uint32_t enf_maker_mesh(EnfMaker *maker, const char *name, uint32_t material, EnfBox3 box);
+uint32_t enf_maker_mover(EnfMaker *maker, const EnfMover *mover);
+/** A mover's fields that mean nothing: no entity's mesh, path or portal, a slide of no length along +Y at 1 m/s. */
+EnfMover enf_maker_mover_default(void);
+
 /** The map, owned by the maker; NULL with `error` if it does not pass enf_map_check. Nothing may be added after it. */
 const EnfMap *enf_maker_finish(EnfMaker *maker, EnfError *error);
 /** What enf_maker_finish gave. */

@@ -67,7 +67,7 @@ static const char *with(const char *format, const char *path) {
 static void test_lists(void **state) {
     (void)state;
     const char *map = rooms_map();
-    EXPECT(with("@", map), 0, "Enfilade map, version 1", "cells      3", "4 half-portals: 2 pairs", "room_2_0-room", "VERT");
+    EXPECT(with("@", map), 0, "Enfilade map, version 2", "cells      3", "4 half-portals: 2 pairs", "room_2_0-room", "VERT");
     EXPECT(with("@ --cells", map), 0, "room_0_0-room", "5.0 × 3.0 × 5.0");
     EXPECT(with("@ --portals", map), 0, "door-portal", "room_1_0-room", "9.00");
     EXPECT(with("@ --materials --lights --entities", map), 0, "plaster", "lamp", "info_player_start");

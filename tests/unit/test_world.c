@@ -1,6 +1,6 @@
 /* Portal state: derived planes, opening and closing, moving, bent polygons. */
 #include "harness/harness.h"
-#include "scenes/maker.h"
+#include "scenes/everything.h"
 
 #include <enfilade/tolerances.h>
 #include <enfilade/world.h>
@@ -99,10 +99,39 @@ static void test_moving_moves_both_halves(void **state) {
     close_pair(&pair);
 }
 
+/* Every mover of the map becomes the object of its number, with its mesh's box and its entity's pose. */
+static void test_a_map_populates_its_world(void **state) {
+    (void)state;
+    EnfMaker *maker = enf_everything_create(NULL);
+    assert_non_null(maker);
+    const EnfMap *map = enf_maker_map(maker);
+    EnfWorld *world = NULL;
+    assert_int_equal(enf_world_create(&world, map, 1, NULL, NULL), ENF_OK);
+    assert_int_equal(enf_world_populate(world, NULL), ENF_OK);
+    assert_int_equal(enf_world_object_limit(world), map->movers_count);
+    for (uint32_t i = 0; i < map->movers_count; i++) {
+        EnfBox3f box = enf_world_box(world, i);
+        assert_int_equal(enf_world_mesh(world, i), map->movers[i].mesh);
+        float at = i == 1 ? 0.0F : 1.0F; /* a path's translation replaces the entity's */
+        assert_true(box.min.x <= at && box.max.x >= at && box.min.y <= at && box.max.y > at);
+    }
+    assert_true(enf_world_is_free(world, 5));
+    /* Mover 1 goes from 0 to 2 m along y in the first second, relative to the world, and back in the next. */
+    enf_world_advance(world, ENF_TICK_RATE);
+    assert_true(fabs(enf_world_pose(world, 1).position.y - 2.0) < 1e-6);
+    enf_world_advance(world, ENF_TICK_RATE / 2);
+    assert_true(fabs(enf_world_pose(world, 1).position.y - 1.0) < 1e-6);
+    assert_true(enf_world_swing(world, enf_world_object(world, 3), 9.0)); /* the hinge stops at its end */
+    enf_world_advance(world, 10 * ENF_TICK_RATE);
+    EnfBox3f open = enf_world_box(world, 3);
+    assert_true(open.max.x > 1.9F && open.max.z < 1.3F);
+    enf_world_destroy(world);
+    enf_maker_destroy(maker);
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_planes_point_out),
-    cmocka_unit_test(test_bent_portals_have_no_side),
-    cmocka_unit_test(test_twins_open_and_close_together),
+    cmocka_unit_test(test_a_map_populates_its_world), cmocka_unit_test(test_planes_point_out),
+    cmocka_unit_test(test_bent_portals_have_no_side), cmocka_unit_test(test_twins_open_and_close_together),
     cmocka_unit_test(test_moving_moves_both_halves),
 };
 

@@ -42,6 +42,8 @@ const char *info_material_flags(const EnfMap *map, uint32_t material, char out[9
     add_word(out, 96, m->alpha_mode == ENF_ALPHA_MASK, "mask");
     add_word(out, 96, m->alpha_mode == ENF_ALPHA_BLEND, "blend");
     add_word(out, 96, (m->flags & ENF_MATERIAL_DOUBLE_SIDED) != 0, "double-sided");
+    add_word(out, 96, (m->flags & ENF_MATERIAL_CLIP) != 0, "clip");
+    add_word(out, 96, (m->flags & ENF_MATERIAL_NOCOLLIDE) != 0, "no-collide");
     add_word(out, 96, (m->flags & ENF_MATERIAL_UNLIT) != 0, "unlit");
     add_word(out, 96, (m->flags & ENF_MATERIAL_MIRROR) != 0, "mirror");
     add_word(out, 96, (m->flags & ENF_MATERIAL_NODRAW) != 0, "nodraw");

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-#define ENF_MAP_VERSION 1
+#define ENF_MAP_VERSION 2
 
 /** Cell flags. OUTSIDE: the synthetic cell that holds what lies in no room (never in `cells` of statistics). OPEN: its shell
  *  leaks; whoever sees into it is shown everything in that window (PITFALLS 12, 17: draw, never hide). */
@@ -70,11 +70,20 @@ typedef struct EnfVertex {
     uint32_t normal;   /**< three signed 10-bit fields x, y, z (bits 0, 10, 20), as GL_INT_2_10_10_10_REV */
     float uv[2];
     uint32_t color; /**< linear RGBA8, R in the low byte; white where absent */
-    uint32_t cell;  /**< home cell (the shader fetches its eye-relative offset) */
+    uint32_t cell;  /**< home cell (the shader fetches its eye-relative offset); ENF_NONE: of a mesh that moves, positions in
+                         its own space */
 } EnfVertex;        /* 32 bytes */
 
 typedef enum EnfAlphaMode { ENF_ALPHA_OPAQUE, ENF_ALPHA_MASK, ENF_ALPHA_BLEND } EnfAlphaMode;
-enum { ENF_MATERIAL_DOUBLE_SIDED = 1, ENF_MATERIAL_UNLIT = 2, ENF_MATERIAL_MIRROR = 4, ENF_MATERIAL_NODRAW = 8 };
+/** CLIP: collides although it is not drawn (NODRAW). NOCOLLIDE: drawn, and no obstacle. */
+enum {
+    ENF_MATERIAL_DOUBLE_SIDED = 1,
+    ENF_MATERIAL_UNLIT = 2,
+    ENF_MATERIAL_MIRROR = 4,
+    ENF_MATERIAL_NODRAW = 8,
+    ENF_MATERIAL_CLIP = 16,
+    ENF_MATERIAL_NOCOLLIDE = 32
+};
 
 typedef struct EnfMaterial {
     uint32_t name;
@@ -153,6 +162,46 @@ typedef struct EnfPath {
     uint32_t float_first;
 } EnfPath; /* 24 bytes */
 
+/** Geometry that moves: rigid, in its own space (metres), shared by any number of movers. Its vertices and indices stand behind those
+ *  of all clusters. */
+typedef struct EnfMesh {
+    float min[3], max[3];            /**< of its vertices, tight */
+    uint32_t part_first, part_count; /**< in mesh_parts, contiguous */
+    uint32_t name;
+    uint32_t reserved;
+} EnfMesh; /* 40 bytes */
+
+/** The triangles of a mesh that have one material; ordered by (mesh, material). */
+typedef struct EnfMeshPart {
+    uint32_t mesh, material;
+    uint32_t index_first, index_count;   /**< in indices; 3 × triangles */
+    uint32_t vertex_first, vertex_count; /**< in vertices: all its indices lie in this range */
+} EnfMeshPart;                           /* 24 bytes */
+
+/** How a mover moves: see EnfMotion (world.h). STILL things can be carried away, FREE ones are somebody's to steer. */
+typedef enum EnfMoverKind { ENF_MOVER_STILL, ENF_MOVER_PATH, ENF_MOVER_HINGE, ENF_MOVER_SLIDE, ENF_MOVER_FREE } EnfMoverKind;
+/** What a path does at its ends. */
+typedef enum EnfWrap { ENF_WRAP_ONCE, ENF_WRAP_LOOP, ENF_WRAP_PING_PONG } EnfWrap;
+/** SOLID: an obstacle. LOCKED: a door that does not open by itself. CARRY: can be carried away. */
+enum { ENF_MOVER_SOLID = 1, ENF_MOVER_LOCKED = 2, ENF_MOVER_CARRY = 4 };
+
+/** Something that moves. Its rest pose, name, class and extras are its entity's. */
+typedef struct EnfMover {
+    double pivot[3]; /**< world; of HINGE */
+    uint32_t entity;
+    uint32_t mesh;                         /**< or ENF_NONE: nothing to draw */
+    uint32_t kind, wrap;                   /**< EnfMoverKind; EnfWrap (of PATH) */
+    uint32_t translation, rotation, scale; /**< PATH: in paths, relative to the world; or ENF_NONE: as at rest */
+    uint32_t portal;                       /**< half-portal that it closes while at rest, or ENF_NONE */
+    uint32_t flags;                        /**< ENF_MOVER_* */
+    uint32_t validity_ticks;               /**< the author's hint for its volumes; 0: none */
+    float axis[3];                         /**< HINGE, SLIDE: unit, world */
+    float low, high, rate;                 /**< HINGE, SLIDE: radians or metres, low <= 0 <= high; a second, > 0 */
+    float seconds, phase;                  /**< PATH: of one pass, > 0; seconds into it at tick 0 */
+    float max_speed;                       /**< metres a second, of any point; > 0 for FREE; 0: derived from the motion */
+    uint32_t reserved;
+} EnfMover; /* 24 + 80 = 104 bytes */
+
 /** The chunks of a map in dependency order: X(TYPE, array, FOURCC). One table drives reader, checker, writer and tests. */
 #define ENF_MAP_CHUNKS(X)                                                                                                      \
     X(char, strings, "STRS")                                                                                                   \
@@ -177,6 +226,9 @@ typedef struct EnfPath {
     X(EnfEntity, entities, "ENTS")                                                                                             \
     X(EnfPath, paths, "PATH")                                                                                                  \
     X(float, path_floats, "PFLT")                                                                                              \
+    X(EnfMesh, meshes, "MESH")                                                                                                 \
+    X(EnfMeshPart, mesh_parts, "MPRT")                                                                                         \
+    X(EnfMover, movers, "MOVR")                                                                                                \
     X(EnfKdNode, cell_nodes, "CKDN")                                                                                           \
     X(EnfKdBlock, cell_blocks, "CKDB")
 

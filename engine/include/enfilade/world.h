@@ -56,9 +56,6 @@ typedef struct EnfPose {
 EnfPose enf_pose_identity(void);
 EnfVec3 enf_pose_point(const EnfPose *pose, EnfVec3 p);
 
-/** What a motion does at the ends of its path. */
-typedef enum EnfWrap { ENF_WRAP_ONCE, ENF_WRAP_LOOP, ENF_WRAP_PING_PONG } EnfWrap;
-
 /** A keyed curve of 3 (translation, scale) or 4 (rotation) components, as glTF has it; borrowed arrays. Times ascend strictly
  *  from `times[0]`, seconds from the path's beginning; before the first and after the last key its value holds. */
 typedef struct EnfTrack {
@@ -176,6 +173,12 @@ const EnfMap *enf_world_map(const EnfWorld *world);
 int64_t enf_world_tick(const EnfWorld *world);
 /** Time passes; nothing moves until it is asked for. Forgets the changes of the ticks before. ticks >= 0. */
 void enf_world_advance(EnfWorld *world, int64_t ticks);
+
+/** What an object is made from a mover of the map: its motion from tick 0 on (arrays borrowed from the map), local box, mesh, and
+ *  `user` = mover. A FREE mover stands at its entity's pose until somebody steers it. */
+EnfObjectDef enf_mover_def(const EnfMap *map, uint32_t mover);
+/** Adds every mover of the map, in order; in a fresh world object i is mover i. ERROR_MEMORY leaves those added so far. */
+EnfResult enf_world_populate(EnfWorld *world, EnfError *error);
 
 /** Null (generation 0) with `error` when memory is out. */
 EnfObjectId enf_world_add(EnfWorld *world, const EnfObjectDef *def, EnfError *error);
