@@ -154,6 +154,9 @@ void enf_dbv_hang_reach(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, En
     EnfBox3 whole = enf_box3_from_f(volume);
     /* However it turns, no side of its box is longer than the diagonal of its box now, which holds two opposite corners. */
     double size = enf_length(enf_sub(here.max, here.min)) + 2.0 * ENF_GRID_STEP;
+    if (enf_world_has_trail(index->world)) { /* a box of two ticks is longer by a tick's way */
+        size += 1.001 * enf_world_max_speed(index->world, object) / ENF_TICK_RATE;
+    }
     for (uint32_t i = 0; i < reach->count; i++) {
         EnfBox3f box = part(whole, &index->places.boxes[index->places.cells_first + reach->cells[i]], size);
         bool near = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;

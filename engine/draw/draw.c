@@ -1,43 +1,24 @@
 /* Makes an EnfDrawList from an EnfVisSet: visible clusters regrouped by material, neighbours merged into ranges, blended
  * ones back to front, and for each cell touched an eye-relative offset with which shared vertices stay bit-equal
  * (README.md). The cost follows the entries of the set; nothing here walks the map. DESIGN §2; PITFALLS 33. */
-#include <enfilade/draw.h>
-
 #include <string.h>
 
-#include "draw/order.h"
+#include "draw/draw_internal.h"
 
-struct EnfDraw {
-    EnfDrawList list;
-    const EnfMap *map;
-    EnfAllocator allocator;
-    EnfDrawBatch *batches; /* one a material drawn, then one a run of blended ranges */
-    EnfDrawRange *ranges;
-    EnfDrawCell *cells;
-    uint32_t *cell_stamps;   /* the frame in which a cell was last listed */
-    uint32_t *solids;        /* visible opaque and masked clusters, ascending */
-    uint32_t *grouped;       /* the same by material; a material's stay ascending */
-    uint32_t *material_ends; /* count, then write position, of each material touched; zero between frames */
-    EnfDrawKey *materials;   /* materials touched */
-    EnfDrawKey *blends;      /* visible blended clusters */
-    uint32_t solid_count, material_count, blend_count;
-    uint32_t stamp;
-    EnfVec3 eye_grid; /* the grid point nearest to the eye */
-};
+/* What most programs show at once: they never need more room. */
+enum { FIRST_MOVERS = 256, FIRST_PARTS = 1024 };
 
 /* ---- life ------------------------------------------------------------------------------------------------------- */
 
-/* The arrays and how many elements each may need: one table for making and freeing. */
+/* The arrays and how many elements each may need: one table for making and freeing. Those that hold parts of movers, too, are in
+ * movers.c. */
 #define ENF_DRAW_ARRAYS(X)                                                                                                     \
-    X(batches, (size_t)map->clusters_count + map->materials_count)                                                             \
-    X(ranges, map->clusters_count)                                                                                             \
     X(cells, map->cells_count)                                                                                                 \
     X(cell_stamps, map->cells_count)                                                                                           \
     X(solids, map->clusters_count)                                                                                             \
     X(grouped, map->clusters_count)                                                                                            \
     X(material_ends, map->materials_count)                                                                                     \
-    X(materials, map->materials_count)                                                                                         \
-    X(blends, map->clusters_count)
+    X(materials, map->materials_count)
 
 EnfResult enf_draw_create(EnfDraw **draw, const EnfMap *map, const EnfAllocator *allocator, EnfError *error) {
     ENF_ASSERT(draw && map);
@@ -54,6 +35,8 @@ EnfResult enf_draw_create(EnfDraw **draw, const EnfMap *map, const EnfAllocator 
     complete = complete && (made->array || (count) == 0);
     ENF_DRAW_ARRAYS(ENF_DRAW_MAKE)
 #undef ENF_DRAW_MAKE
+    bool moves = map->meshes_count > 0;
+    complete = complete && enf_draw_reserve_movers(made, moves ? FIRST_MOVERS : 0, moves ? FIRST_PARTS : 0);
     if (!complete) {
         enf_draw_destroy(made);
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for draw lists of %u clusters",
@@ -72,6 +55,7 @@ void enf_draw_destroy(EnfDraw *draw) {
 #define ENF_DRAW_FREE(array, count) enf_free(&allocator, draw->array, (count), sizeof *draw->array);
     ENF_DRAW_ARRAYS(ENF_DRAW_FREE)
 #undef ENF_DRAW_FREE
+    enf_draw_free_movers(draw);
     enf_free(&allocator, draw, 1, sizeof *draw);
 }
 
@@ -163,11 +147,13 @@ static void collect(EnfDraw *draw, const EnfVisSet *set) {
 
 /* ---- listing ---------------------------------------------------------------------------------------------------- */
 
-static void open_batch(EnfDraw *draw, uint32_t material) {
+EnfDrawBatch *enf_draw_open_batch(EnfDraw *draw, uint32_t material, uint32_t mover) {
     EnfDrawBatch *batch = &draw->batches[draw->list.batch_count++];
     batch->material = material;
+    batch->mover = mover;
     batch->range_first = draw->list.range_count;
     batch->range_count = 0;
+    return batch;
 }
 
 /* Appends a cluster to the last batch: longer range, if its indices follow the last one's, or a new range. */
@@ -207,25 +193,31 @@ static void list_solids(EnfDraw *draw) {
     uint32_t next = 0;
     for (uint32_t i = 0; i < draw->material_count; i++) {
         uint32_t material = draw->materials[i].index;
-        open_batch(draw, material);
+        enf_draw_open_batch(draw, material, ENF_NONE);
         for (; next < draw->material_ends[material]; next++) {
             append(draw, draw->grouped[next]);
         }
         draw->material_ends[material] = 0;
     }
-    draw->list.opaque_batch_count = draw->list.batch_count;
 }
 
+/* Static clusters and parts of movers together. Of equal distance, clusters come first: their numbers are lower. */
 static void list_blends(EnfDraw *draw) {
     enf_draw_sort(draw->blends, draw->blend_count);
-    uint32_t material = ENF_NONE;
+    const uint32_t clusters = draw->map->clusters_count;
+    uint32_t material = ENF_NONE; /* of the open batch, if it is one of clusters */
     for (uint32_t i = 0; i < draw->blend_count; i++) {
-        uint32_t cluster = draw->blends[i].index;
-        if (draw->map->clusters[cluster].material != material) {
-            material = draw->map->clusters[cluster].material;
-            open_batch(draw, material);
+        uint32_t index = draw->blends[i].index;
+        if (index >= clusters) {
+            enf_draw_list_part(draw, index - clusters);
+            material = ENF_NONE;
+            continue;
         }
-        append(draw, cluster);
+        if (draw->map->clusters[index].material != material) {
+            material = draw->map->clusters[index].material;
+            enf_draw_open_batch(draw, material, ENF_NONE);
+        }
+        append(draw, index);
     }
 }
 
@@ -235,19 +227,26 @@ static void begin(EnfDraw *draw) {
         draw->stamp = 1;
     }
     draw->solid_count = draw->material_count = draw->blend_count = 0;
+    draw->part_count = draw->part_order_count = 0;
     memset(&draw->list, 0, sizeof draw->list);
     draw->list.batches = draw->batches;
     draw->list.ranges = draw->ranges;
     draw->list.cells = draw->cells;
+    draw->list.movers = draw->movers;
 }
 
-const EnfDrawList *enf_draw_build(EnfDraw *draw, const EnfVisSet *set, double near_plane) {
+const EnfDrawList *enf_draw_build(EnfDraw *draw, const EnfVisSet *set, double near_plane, EnfWorld *world, double alpha) {
     ENF_ASSERT(draw && set && set->cameras && set->space_count > 0);
-    ENF_ASSERT(near_plane > 0.0);
+    ENF_ASSERT(near_plane > 0.0 && alpha >= 0.0 && alpha <= 1.0);
+    ENF_ASSERT(!world || enf_world_map(world) == draw->map);
+    enf_draw_make_room(draw, set, world);
     begin(draw);
     set_camera(draw, &set->cameras[0], near_plane);
     collect(draw, set);
+    enf_draw_collect_movers(draw, set, world, alpha);
     list_solids(draw);
+    enf_draw_list_parts(draw);
+    draw->list.opaque_batch_count = draw->list.batch_count;
     list_blends(draw);
     return &draw->list;
 }

@@ -10,18 +10,10 @@ typedef struct Rgb {
     float r, g, b;
 } Rgb;
 
-/* Light from nowhere: from below, from above, and a slanting key that tells walls apart. */
-typedef struct Ambient {
-    Rgb ground, sky, key;
-} Ambient;
-
 typedef struct Baker {
     EnfGlBake *out;
     const EnfMap *map;
-    EnfGlLights lights;
     EnfGlCharts charts;
-    Ambient ambient;
-    bool lamps;
 } Baker;
 
 /* ---- ambient ---------------------------------------------------------------------------------------------------- */
@@ -37,18 +29,21 @@ static bool has_vertex_colors(const EnfMap *map) {
 
 /* Lamps need a little fill; vertex colours without lamps are baked light, to be shown as it is; with neither, a bright
  * hemisphere tells walls, floor and ceiling apart. */
-static Ambient choose_ambient(const EnfMap *map) {
-    static const Ambient fill = {{0.070f, 0.065f, 0.062f}, {0.115f, 0.120f, 0.135f}, {0.012f, 0.010f, 0.008f}};
-    static const Ambient baked = {{1.05f, 1.05f, 1.05f}, {1.30f, 1.30f, 1.30f}, {0.07f, 0.00f, 0.04f}};
-    static const Ambient plain = {{0.50f, 0.48f, 0.46f}, {0.98f, 1.00f, 1.04f}, {0.16f, 0.05f, 0.09f}};
+static EnfGlAmbient choose_ambient(const EnfMap *map) {
+    static const EnfGlAmbient fill = {{0.070f, 0.065f, 0.062f}, {0.115f, 0.120f, 0.135f}, {0.012f, 0.010f, 0.008f}};
+    static const EnfGlAmbient baked = {{1.05f, 1.05f, 1.05f}, {1.30f, 1.30f, 1.30f}, {0.07f, 0.00f, 0.04f}};
+    static const EnfGlAmbient plain = {{0.50f, 0.48f, 0.46f}, {0.98f, 1.00f, 1.04f}, {0.16f, 0.05f, 0.09f}};
     return map->lights_count ? fill : has_vertex_colors(map) ? baked : plain;
 }
 
-static Rgb ambient_at(const Ambient *a, const float n[3]) {
-    float up = n[1] * 0.5f + 0.5f, key = n[0] * a->key.r + n[1] * a->key.g + n[2] * a->key.b;
-    Rgb sum = {a->ground.r + (a->sky.r - a->ground.r) * up + key, a->ground.g + (a->sky.g - a->ground.g) * up + key,
-               a->ground.b + (a->sky.b - a->ground.b) * up + key};
-    return sum;
+static Rgb ambient_at(const EnfGlAmbient *a, const float n[3]) {
+    float up = n[1] * 0.5f + 0.5f, sum[3];
+    for (int i = 0; i < 3; i++) {
+        float key = n[0] * a->key[0] + n[1] * a->key[1] + n[2] * a->key[2];
+        sum[i] = a->ground[i] + (a->sky[i] - a->ground[i]) * up + key;
+    }
+    Rgb rgb = {sum[0], sum[1], sum[2]};
+    return rgb;
 }
 
 /* ---- lamps ------------------------------------------------------------------------------------------------------ */
@@ -95,19 +90,19 @@ static float shine(const EnfGlLights *lights, const EnfGlLight *light, const flo
 
 static uint32_t encode(const Baker *baker, float light) {
     /* A soft shoulder: linear in the dark, and no lamp burns its wall white. */
-    float shown = baker->lamps ? light * (1.0f + 0.1f * light) / (1.0f + 0.35f * light) : light;
+    float shown = baker->out->lamps ? light * (1.0f + 0.1f * light) / (1.0f + 0.35f * light) : light;
     return (uint32_t)(sqrtf(clamp01(0.5f * shown)) * 255.0f + 0.5f);
 }
 
 static uint32_t light_at(const Baker *baker, uint32_t cluster, const float p[3], const float n[3]) {
     const EnfMaterial *material = &baker->map->materials[baker->map->clusters[cluster].material];
     bool two_sided = (material->flags & ENF_MATERIAL_DOUBLE_SIDED) != 0;
-    Rgb sum = ambient_at(&baker->ambient, n);
-    uint32_t first = baker->lights.cluster_lists[cluster] >> 8;
-    uint32_t last = first + (baker->lights.cluster_lists[cluster] & 255u);
+    Rgb sum = ambient_at(&baker->out->ambient, n);
+    uint32_t first = baker->out->lights.cluster_lists[cluster] >> 8;
+    uint32_t last = first + (baker->out->lights.cluster_lists[cluster] & 255u);
     for (uint32_t i = first; i <= last; i++) {
-        const EnfGlLight *light = &baker->lights.lights[i];
-        float k = shine(&baker->lights, light, p, n, two_sided);
+        const EnfGlLight *light = &baker->out->lights.lights[i];
+        float k = shine(&baker->out->lights, light, p, n, two_sided);
         sum.r += light->color[0] * k;
         sum.g += light->color[1] * k;
         sum.b += light->color[2] * k;
@@ -207,8 +202,10 @@ static EnfResult allocate(EnfGlBake *bake, const Baker *baker, EnfError *error) 
 EnfResult enf_gl_bake_build(EnfGlBake *bake, const EnfMap *map, uint32_t max_size, EnfError *error) {
     ENF_ASSERT(bake && map);
     memset(bake, 0, sizeof *bake);
-    Baker baker = {.out = bake, .map = map, .ambient = choose_ambient(map), .lamps = map->lights_count > 0};
-    EnfResult result = enf_gl_lights_build(&baker.lights, map, error);
+    Baker baker = {.out = bake, .map = map};
+    bake->ambient = choose_ambient(map);
+    bake->lamps = map->lights_count > 0;
+    EnfResult result = enf_gl_lights_build(&bake->lights, map, error);
     EnfResult charted = enf_gl_charts_build(&baker.charts, map, max_size, result == ENF_OK ? error : NULL);
     result = result != ENF_OK ? result : charted;
     if (result == ENF_OK && (result = allocate(bake, &baker, error)) == ENF_OK) {
@@ -216,7 +213,6 @@ EnfResult enf_gl_bake_build(EnfGlBake *bake, const EnfMap *map, uint32_t max_siz
         light_texels(&baker);
     }
     enf_gl_charts_free(&baker.charts);
-    enf_gl_lights_free(&baker.lights);
     return result;
 }
 
@@ -224,5 +220,6 @@ void enf_gl_bake_free(EnfGlBake *bake) {
     enf_free(NULL, bake->vertex_light, (size_t)bake->vertex_count + 1, sizeof *bake->vertex_light);
     enf_free(NULL, bake->vertex_uv, (size_t)bake->vertex_count + 1, sizeof *bake->vertex_uv);
     enf_free(NULL, bake->texels, (size_t)bake->width * bake->height, 4);
+    enf_gl_lights_free(&bake->lights);
     memset(bake, 0, sizeof *bake);
 }

@@ -1,4 +1,4 @@
-/* Draws over a picture what an engineer wants to see: lines, and the clusters of a list as wireframe. */
+/* Draws over a picture what an engineer wants to see: lines, and the clusters and movers of a list as wireframe. */
 #include "gl/gl_internal.h"
 
 void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count, bool through) {
@@ -24,7 +24,6 @@ void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugV
 void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba) {
     ENF_ASSERT(gl && list);
     const EnfGlFunctions *f = &gl->f;
-    const EnfGlProgram *program = &gl->programs[ENF_GL_PROGRAM_FLAT];
     float color[4];
     for (int i = 0; i < 4; i++) {
         color[i] = (float)(rgba >> (8 * i) & 255u) / 255.0f;
@@ -36,12 +35,16 @@ void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba) {
     f->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     f->DepthMask(GL_FALSE);
     f->PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    f->UseProgram(program->name);
-    f->Uniform4fv(program->flat_color, 1, color);
     for (uint32_t i = 0; i < list->batch_count; i++) {
+        bool mover = list->batches[i].mover != ENF_NONE;
+        const EnfGlProgram *program = &gl->programs[mover ? ENF_GL_PROGRAM_MOVER_FLAT : ENF_GL_PROGRAM_FLAT];
+        f->UseProgram(program->name);
+        f->Uniform4fv(program->flat_color, 1, color);
+        enf_gl_set_batch(gl, program, list, &list->batches[i]);
         enf_gl_draw_batch(gl, list, &list->batches[i]);
     }
     f->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    f->FrontFace(GL_CCW);
     f->DepthMask(GL_TRUE);
     f->Disable(GL_BLEND);
     f->BindVertexArray(0);

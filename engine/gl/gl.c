@@ -24,12 +24,21 @@ static EnfResult check_version(EnfGl *gl, EnfError *error) {
     return ENF_OK;
 }
 
+static uint64_t bit(EnfGlProgramKind kind) {
+    return UINT64_C(1) << kind;
+}
+
 /* Surfaces that the map has, ids for them, wireframe and lines. */
-static uint32_t needed_programs(const EnfMap *map) {
-    uint32_t needed = 1u << ENF_GL_PROGRAM_FLAT | 1u << ENF_GL_PROGRAM_LINES;
+static uint64_t needed_programs(const EnfMap *map) {
+    uint64_t needed = bit(ENF_GL_PROGRAM_FLAT) | bit(ENF_GL_PROGRAM_LINES);
     for (uint32_t i = 0; i < map->materials_count; i++) {
-        needed |= 1u << enf_gl_program_kind(&map->materials[i], ENF_RENDER_COLOR);
-        needed |= 1u << enf_gl_program_kind(&map->materials[i], ENF_RENDER_IDS);
+        needed |= bit(enf_gl_program_kind(&map->materials[i], ENF_RENDER_COLOR, false));
+        needed |= bit(enf_gl_program_kind(&map->materials[i], ENF_RENDER_IDS, false));
+    }
+    for (uint32_t i = 0; i < map->mesh_parts_count; i++) {
+        const EnfMaterial *material = &map->materials[map->mesh_parts[i].material];
+        needed |= bit(enf_gl_program_kind(material, ENF_RENDER_COLOR, true)) | bit(ENF_GL_PROGRAM_MOVER_FLAT);
+        needed |= bit(enf_gl_program_kind(material, ENF_RENDER_IDS, true));
     }
     return needed;
 }

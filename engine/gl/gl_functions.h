@@ -42,6 +42,7 @@
     X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC)                                                               \
     X(Finish, PFNGLFINISHPROC)                                                                                                 \
     X(FramebufferRenderbuffer, PFNGLFRAMEBUFFERRENDERBUFFERPROC)                                                               \
+    X(FrontFace, PFNGLFRONTFACEPROC)                                                                                           \
     X(GenBuffers, PFNGLGENBUFFERSPROC)                                                                                         \
     X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                                                                               \
     X(GenRenderbuffers, PFNGLGENRENDERBUFFERSPROC)                                                                             \

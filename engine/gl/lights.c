@@ -18,6 +18,7 @@ typedef struct Builder {
     EnfGlLights *out;
     const EnfMap *map;
     EnfGlLight *cell_lights; /* of the cell at hand */
+    uint32_t *cell_numbers;  /* of these lights, in the map */
     uint32_t *order;         /* its references, grouped by light */
     uint32_t *list, *last;   /* of the cluster at hand, and of the one before */
     float *brightness;       /* a lit cluster each */
@@ -131,6 +132,7 @@ static void set_aim(EnfGlLight *out, const EnfLight *light) {
 
 static bool add_light(Builder *builder, const EnfCell *cell, const EnfLightRef *refs, const uint32_t *order, uint32_t count) {
     const EnfLight *light = &builder->map->lights[refs[order[0]].light];
+    builder->cell_numbers[builder->cell_light_count] = refs[order[0]].light;
     EnfGlLight *out = &builder->cell_lights[builder->cell_light_count++];
     bool directional = light->kind == ENF_LIGHT_DIRECTIONAL;
     for (int i = 0; i < 3; i++) {
@@ -174,11 +176,11 @@ static bool gather_cell(Builder *builder, const EnfCell *cell) {
 
 /* ---- does a light touch a cluster? ------------------------------------------------------------------------------ */
 
-/* Squared distance of a point to a box. */
-static float box_distance2(const EnfCluster *c, const float p[3]) {
+float enf_gl_light_distance2(const EnfGlLight *light, const float min[3], const float max[3]) {
+    const float *p = light->position;
     float sum = 0.0f;
     for (int i = 0; i < 3; i++) {
-        float d = p[i] < c->min[i] ? c->min[i] - p[i] : p[i] > c->max[i] ? p[i] - c->max[i] : 0.0f;
+        float d = p[i] < min[i] ? min[i] - p[i] : p[i] > max[i] ? p[i] - max[i] : 0.0f;
         sum += d * d;
     }
     return sum;
@@ -189,20 +191,20 @@ static bool is_end(const float plane[4]) {
 }
 
 /* Is some point of the box inside a plane or its soft edge? */
-static bool box_touches_plane(const EnfCluster *c, const float plane[4]) {
+static bool box_touches_plane(const float min[3], const float max[3], const float plane[4]) {
     float most = plane[3];
     for (int i = 0; i < 3; i++) {
-        most += plane[i] * (plane[i] > 0.0f ? c->max[i] : c->min[i]);
+        most += plane[i] * (plane[i] > 0.0f ? max[i] : min[i]);
     }
     return most > -1e-3f;
 }
 
-static bool windows_touch(const EnfGlLights *out, uint32_t windows, const EnfCluster *c) {
+static bool windows_touch(const EnfGlLights *out, uint32_t windows, const float min[3], const float max[3]) {
     uint32_t first = windows >> 6, last = first + (windows & 63u);
     bool inside = true;
     for (uint32_t i = first; i <= last; i++) {
         if (!is_end(out->planes[i])) {
-            inside = inside && box_touches_plane(c, out->planes[i]);
+            inside = inside && box_touches_plane(min, max, out->planes[i]);
         } else if (inside) {
             return true;
         } else {
@@ -212,14 +214,25 @@ static bool windows_touch(const EnfGlLights *out, uint32_t windows, const EnfClu
     return false;
 }
 
+bool enf_gl_light_touches(const EnfGlLights *lights, const EnfGlLight *light, const float min[3], const float max[3]) {
+    return enf_gl_light_distance2(light, min, max) * light->inverse_range2 < 1.0f &&
+           windows_touch(lights, light->windows, min, max);
+}
+
 static bool touches(const EnfGlLights *out, const EnfGlLight *light, const EnfCluster *c) {
-    return box_distance2(c, light->position) * light->inverse_range2 < 1.0f && windows_touch(out, light->windows, c);
+    return enf_gl_light_touches(out, light, c->min, c->max);
 }
 
 /* ---- exposure --------------------------------------------------------------------------------------------------- */
 
 static float luminance(const EnfGlLight *light) {
     return 0.2126f * light->color[0] + 0.7152f * light->color[1] + 0.0722f * light->color[2];
+}
+
+float enf_gl_light_brightness(const EnfGlLight *light, float distance2) {
+    float in_range = distance2 * light->inverse_range2;
+    float window = 1.0f - in_range * in_range;
+    return window > 0.0f ? luminance(light) * window / distance2 : 0.0f;
 }
 
 /* How bright a light would be at the middle of a cluster that faces it. */
@@ -229,9 +242,7 @@ static float brightness(const EnfGlLight *light, const EnfCluster *c) {
         float d = 0.5f * (c->min[i] + c->max[i]) - light->position[i];
         distance2 += d * d;
     }
-    float in_range = distance2 * light->inverse_range2;
-    float window = 1.0f - in_range * in_range;
-    return window > 0.0f ? luminance(light) * window / distance2 : 0.0f;
+    return enf_gl_light_brightness(light, distance2);
 }
 
 static bool measure_cell(Builder *builder, const EnfCell *cell) {
@@ -310,11 +321,31 @@ static bool list_cluster(Builder *builder, uint32_t c, uint32_t *shared) {
     return true;
 }
 
+/* The lights of a cell for what moves there. */
+static bool keep_cell(Builder *builder) {
+    EnfGlLights *out = builder->out;
+    for (uint32_t i = 0; i < builder->cell_light_count && builder->map->meshes_count > 0; i++) {
+        void *array = out->cell_lights;
+        if (!reserve(builder, &array, out->cell_light_count, &out->cell_light_capacity, sizeof *out->cell_lights,
+                     LIGHT_LIMIT)) {
+            return false;
+        }
+        out->cell_lights = array;
+        EnfGlCellLight kept = {builder->cell_lights[i], builder->cell_numbers[i]};
+        out->cell_lights[out->cell_light_count++] = kept;
+    }
+    return true;
+}
+
 static bool list_cell(Builder *builder, const EnfCell *cell) {
     uint32_t shared = 0;
     builder->last_count = 0;
     for (uint32_t i = 0; i < builder->cell_light_count; i++) {
         expose_light(builder, &builder->cell_lights[i]);
+    }
+    builder->out->cell_firsts[cell - builder->map->cells] = builder->out->cell_light_count;
+    if (!keep_cell(builder)) {
+        return false;
     }
     for (uint32_t c = cell->cluster_first; c < cell->cluster_first + cell->cluster_count; c++) {
         if (!list_cluster(builder, c, &shared)) {
@@ -343,7 +374,11 @@ static bool build(Builder *builder) {
         return false;
     }
     expose(builder);
-    return each_cell(builder, list_cell);
+    if (!each_cell(builder, list_cell)) {
+        return false;
+    }
+    builder->out->cell_firsts[builder->map->cells_count] = builder->out->cell_light_count;
+    return true;
 }
 
 static uint32_t most_refs(const EnfMap *map) {
@@ -357,6 +392,7 @@ static uint32_t most_refs(const EnfMap *map) {
 /* X(array, count): working memory. */
 #define ENF_GL_LIGHTS_WORK(X)                                                                                                  \
     X(cell_lights, builder.ref_capacity)                                                                                       \
+    X(cell_numbers, builder.ref_capacity)                                                                                      \
     X(order, builder.ref_capacity)                                                                                             \
     X(list, ENF_GL_LIGHTS_MAX)                                                                                                 \
     X(last, ENF_GL_LIGHTS_MAX)                                                                                                 \
@@ -370,7 +406,9 @@ EnfResult enf_gl_lights_build(EnfGlLights *lights, const EnfMap *map, EnfError *
     builder.error->code = ENF_OK;
     lights->cluster_lists = enf_alloc(NULL, (size_t)map->clusters_count + 1, sizeof *lights->cluster_lists);
     lights->cluster_count = map->clusters_count;
-    bool done = lights->cluster_lists != NULL;
+    lights->cell_firsts = enf_alloc(NULL, (size_t)map->cells_count + 1, sizeof *lights->cell_firsts);
+    lights->cell_count = map->cells_count;
+    bool done = lights->cluster_lists && lights->cell_firsts;
 #define ENF_GL_LIGHTS_MAKE(array, count)                                                                                       \
     builder.array = enf_alloc(NULL, (count), sizeof *builder.array);                                                           \
     done = done && builder.array;
@@ -390,5 +428,7 @@ void enf_gl_lights_free(EnfGlLights *lights) {
     enf_free(NULL, lights->lights, lights->light_capacity, sizeof *lights->lights);
     enf_free(NULL, lights->planes, lights->plane_capacity, sizeof *lights->planes);
     enf_free(NULL, lights->cluster_lists, (size_t)lights->cluster_count + 1, sizeof *lights->cluster_lists);
+    enf_free(NULL, lights->cell_lights, lights->cell_light_capacity, sizeof *lights->cell_lights);
+    enf_free(NULL, lights->cell_firsts, (size_t)lights->cell_count + 1, sizeof *lights->cell_firsts);
     memset(lights, 0, sizeof *lights);
 }

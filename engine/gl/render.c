@@ -36,6 +36,8 @@ static void set_program_view(EnfGl *gl, const EnfGlProgram *program, const EnfDr
     gl->f.UniformMatrix4fv(program->clip_from_eye, 1, GL_FALSE, list->clip_from_eye);
     gl->f.Uniform3fv(program->eye_fraction, 1, list->eye_fraction);
     gl->f.Uniform2fv(program->light_map_scale, 1, gl->light_map_scale);
+    gl->f.Uniform3fv(program->ambient, 3, gl->ambient.ground);
+    gl->f.Uniform1i(program->lamps, gl->lamps ? 1 : 0);
 }
 
 void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list) {
@@ -54,12 +56,15 @@ void enf_gl_set_view(EnfGl *gl, const EnfDrawList *list) {
 
 /* ---- materials -------------------------------------------------------------------------------------------------- */
 
-EnfGlProgramKind enf_gl_program_kind(const EnfMaterial *material, EnfRenderMode mode) {
+EnfGlProgramKind enf_gl_program_kind(const EnfMaterial *material, EnfRenderMode mode, bool mover) {
     bool masked = material->alpha_mode == ENF_ALPHA_MASK;
+    if (mode == ENF_RENDER_IDS && mover) {
+        return masked ? ENF_GL_PROGRAM_MOVER_IDS_MASK : ENF_GL_PROGRAM_MOVER_IDS;
+    }
     if (mode == ENF_RENDER_IDS) {
         return masked ? ENF_GL_PROGRAM_IDS_MASK : ENF_GL_PROGRAM_IDS;
     }
-    return (EnfGlProgramKind)(ENF_GL_PROGRAM_SURFACE + (material->flags & ENF_MATERIAL_UNLIT ? 0 : ENF_GL_LIT) +
+    return (EnfGlProgramKind)((mover ? ENF_GL_MOVER : 0) + ENF_GL_PROGRAM_SURFACE + (material->flags & ENF_MATERIAL_UNLIT ? 0 : ENF_GL_LIT) +
                               (masked ? ENF_GL_MASK : 0) + (material->texture != ENF_NONE ? ENF_GL_TEXTURE : 0) +
                               (material->emissive_texture != ENF_NONE ? ENF_GL_GLOW : 0));
 }
@@ -71,9 +76,9 @@ static void bind_texture(EnfGl *gl, GLenum unit, uint32_t texture) {
     gl->f.BindSampler(unit, has ? gl->samplers[texture] : 0);
 }
 
-static const EnfGlProgram *use_material(EnfGl *gl, const EnfMaterial *material, EnfRenderMode mode) {
+static const EnfGlProgram *use_material(EnfGl *gl, const EnfMaterial *material, EnfRenderMode mode, bool mover) {
     const EnfGlFunctions *f = &gl->f;
-    const EnfGlProgram *program = &gl->programs[enf_gl_program_kind(material, mode)];
+    const EnfGlProgram *program = &gl->programs[enf_gl_program_kind(material, mode, mover)];
     f->UseProgram(program->name);
     bind_texture(gl, ENF_GL_UNIT_BASE, material->texture);
     bind_texture(gl, ENF_GL_UNIT_EMISSIVE, material->emissive_texture);
@@ -81,8 +86,30 @@ static const EnfGlProgram *use_material(EnfGl *gl, const EnfMaterial *material, 
     f->Uniform4fv(program->base_color, 1, material->base_color);
     f->Uniform3fv(program->emissive, 1, material->emissive);
     f->Uniform1f(program->cutoff, material->alpha_cutoff);
+    f->Uniform1i(program->two_sided, material->flags & ENF_MATERIAL_DOUBLE_SIDED ? 1 : 0);
     (material->flags & ENF_MATERIAL_DOUBLE_SIDED ? f->Disable : f->Enable)(GL_CULL_FACE);
     return program;
+}
+
+/* ---- movers ----------------------------------------------------------------------------------------------------- */
+
+/* A scale of odd sign turns triangles around. */
+static bool is_reflected(const float *m) {
+    float x = m[4] * m[8] - m[5] * m[7], y = m[5] * m[6] - m[3] * m[8], z = m[3] * m[7] - m[4] * m[6];
+    return m[0] * x + m[1] * y + m[2] * z < 0.0f;
+}
+
+void enf_gl_set_batch(EnfGl *gl, const EnfGlProgram *program, const EnfDrawList *list, const EnfDrawBatch *batch) {
+    const EnfGlFunctions *f = &gl->f;
+    bool mover = batch->mover != ENF_NONE;
+    f->BindVertexArray(mover ? gl->mover_array : gl->vertex_array);
+    f->FrontFace(mover && is_reflected(list->movers[batch->mover].eye_from_model) ? GL_CW : GL_CCW);
+    if (mover) {
+        const EnfDrawMover *m = &list->movers[batch->mover];
+        enf_gl_mover_lights(&gl->mover_lights, &gl->lights, gl->map, m);
+        f->Uniform4fv(program->mover, (GLsizei)gl->mover_lights.count, gl->mover_lights.vectors[0]);
+        f->Uniform1i(program->object_id, (GLint)(gl->map->clusters_count + m->object + 1));
+    }
 }
 
 /* ---- batches ---------------------------------------------------------------------------------------------------- */
@@ -112,7 +139,9 @@ static void draw_batch_ids(EnfGl *gl, const EnfGlProgram *program, const EnfDraw
 static void draw_batches(EnfGl *gl, const EnfDrawList *list, uint32_t first, uint32_t end, EnfRenderMode mode) {
     for (uint32_t i = first; i < end; i++) {
         const EnfDrawBatch *batch = &list->batches[i];
-        const EnfGlProgram *program = use_material(gl, &gl->map->materials[batch->material], mode);
+        const EnfMaterial *material = &gl->map->materials[batch->material];
+        const EnfGlProgram *program = use_material(gl, material, mode, batch->mover != ENF_NONE);
+        enf_gl_set_batch(gl, program, list, batch);
         if (mode == ENF_RENDER_IDS) {
             draw_batch_ids(gl, program, list, batch);
         } else {
@@ -130,6 +159,7 @@ static void begin(EnfGl *gl, EnfRenderMode mode) {
     f->DepthFunc(GL_LESS); /* of surfaces at one depth the first in the list stays (PITFALLS 33) */
     f->DepthMask(GL_TRUE);
     f->CullFace(GL_BACK);
+    f->FrontFace(GL_CCW);
     f->ClearColor(color ? 0.012f : 0.0f, color ? 0.014f : 0.0f, color ? 0.018f : 0.0f, color ? 1.0f : 0.0f);
     f->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
@@ -137,6 +167,7 @@ static void begin(EnfGl *gl, EnfRenderMode mode) {
 static void end(EnfGl *gl) {
     const EnfGlFunctions *f = &gl->f;
     f->Disable(GL_CULL_FACE);
+    f->FrontFace(GL_CCW);
     f->Disable(GL_BLEND);
     f->DepthMask(GL_TRUE);
     f->BindSampler(ENF_GL_UNIT_BASE, 0);

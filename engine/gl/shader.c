@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gl/mover_lights.h"
+
 static const char vertex_source[] =
     "uniform mat4 clip_from_eye;\n"
     "uniform vec3 eye_fraction;\n"
@@ -15,8 +17,12 @@ static const char vertex_source[] =
     "layout(location = 1) in vec2 uv;\n"
     "layout(location = 2) in vec4 color;\n"
     "layout(location = 3) in uint cell;\n"
+    "#ifndef MOVER\n"
     "layout(location = 4) in vec3 light;\n"
     "layout(location = 5) in vec2 light_uv;\n"
+    "#else\n"
+    "layout(location = 6) in vec3 normal;\n"
+    "#endif\n"
     "out vec4 f_color;\n"
     "#if defined(TEXTURE) || defined(GLOW)\n"
     "out vec2 f_uv;\n"
@@ -28,10 +34,69 @@ static const char vertex_source[] =
     "#endif\n"
     "#endif\n"
     "invariant gl_Position;\n"
+    "\n";
+
+/* What lights a moving object (mover_lights.h), by the formulas of bake.c: what is at rest and what moves look alike. */
+static const char mover_source[] =
+    "#ifdef MOVER\n"
+    "uniform vec4 mover[MOVER_VECTORS];\n"
+    "uniform vec3 ambient[3];\n"
+    "uniform bool two_sided, lamps;\n"
     "\n"
+    "// p: relative to the model's origin. Where two windows of a light overlap, it counts once.\n"
+    "float through(int windows, vec3 p, int planes) {\n"
+    "    int first = planes + windows / 128, last = first + windows % 128;\n"
+    "    float lit = windows == 0 ? 1.0 : 0.0, window = 1.0;\n"
+    "    for (int i = first; i < last; i++) {\n"
+    "        vec4 plane = mover[i];\n"
+    "        if (plane.xyz == vec3(0.0)) {\n"
+    "            lit = max(lit, window);\n"
+    "            window = 1.0;\n"
+    "        } else {\n"
+    "            window = min(window, clamp(dot(plane.xyz, p) + plane.w, 0.0, 1.0));\n"
+    "        }\n"
+    "    }\n"
+    "    return lit;\n"
+    "}\n"
+    "\n"
+    "vec3 shine(int slot, vec3 p, vec3 n, int planes) {\n"
+    "    vec4 at = mover[4 + 3 * slot], color = mover[5 + 3 * slot], aim = mover[6 + 3 * slot];\n"
+    "    vec3 to = at.xyz - p;\n"
+    "    float d2 = dot(to, to), in_range = d2 * at.w, cosine = dot(n, to);\n"
+    "    cosine = two_sided ? abs(cosine) : cosine;\n"
+    "    if (cosine <= 0.0 || in_range >= 1.0) return vec3(0.0);\n"
+    "    float nearness = inversesqrt(max(d2, 0.1));\n"
+    "    float cone = clamp(aim.w - dot(aim.xyz, to) * nearness, 0.0, 1.0);\n"
+    "    float k = cosine * nearness * (1.0 - in_range * in_range) * nearness * nearness * cone * cone;\n"
+    "    return k > 0.0 ? color.rgb * (k * through(int(color.w), p, planes)) : vec3(0.0);\n"
+    "}\n"
+    "\n"
+    "vec3 light_at(vec3 p, vec3 n) {\n"
+    "    int lights = int(mover[3].x);\n"
+    "    vec3 sum = mix(ambient[0], ambient[1], n.y * 0.5 + 0.5) + dot(n, ambient[2]);\n"
+    "    for (int i = 0; i < lights; i++) sum += shine(i, p, n, 4 + 3 * lights);\n"
+    "    vec3 shown = lamps ? sum * (1.0 + 0.1 * sum) / (1.0 + 0.35 * sum) : sum;\n"
+    "    return sqrt(clamp(0.5 * shown, 0.0, 1.0));\n"
+    "}\n"
+    "\n"
+    "// Cofactors turn a normal as the matrix turns its surface, whatever its scale.\n"
+    "vec3 turned(vec3 n) {\n"
+    "    vec3 a = mover[0].xyz, b = mover[1].xyz, c = mover[2].xyz, bc = cross(b, c);\n"
+    "    vec3 out_of = bc * n.x + cross(c, a) * n.y + cross(a, b) * n.z;\n"
+    "    out_of = dot(a, bc) < 0.0 ? -out_of : out_of;\n"
+    "    float length2 = dot(out_of, out_of);\n"
+    "    return length2 > 0.0 ? out_of * inversesqrt(length2) : vec3(0.0);\n"
+    "}\n"
+    "#endif\n"
+    "\n";
+
+static const char vertex_main[] =
     "void main() {\n"
     "#ifdef LINES\n"
     "    vec3 p = position;\n"
+    "#elif defined(MOVER)\n"
+    "    vec3 from_origin = mover[0].xyz * position.x + mover[1].xyz * position.y + mover[2].xyz * position.z;\n"
+    "    vec3 p = from_origin + vec3(mover[0].w, mover[1].w, mover[2].w);\n"
     "#else\n"
     "    // Exact sum first, then the eye's fraction: one number for a vertex that cells share.\n"
     "    vec3 p = (position + texelFetch(cell_offsets, int(cell)).xyz) - eye_fraction;\n"
@@ -41,7 +106,9 @@ static const char vertex_source[] =
     "#if defined(TEXTURE) || defined(GLOW)\n"
     "    f_uv = vec2(dot(uv_rows[0], vec3(uv, 1.0)), dot(uv_rows[1], vec3(uv, 1.0)));\n"
     "#endif\n"
-    "#ifdef LIT\n"
+    "#if defined(LIT) && defined(MOVER)\n"
+    "    f_light = light_at(from_origin, turned(normal));\n"
+    "#elif defined(LIT)\n"
     "    f_light = light;\n"
     "#ifdef LIGHT_MAP\n"
     "    f_light_uv = light_uv * light_map_scale;\n"
@@ -53,7 +120,7 @@ static const char fragment_inputs[] = "uniform sampler2D base_texture, emissive_
                                       "uniform vec4 base_color, flat_color;\n"
                                       "uniform vec3 emissive;\n"
                                       "uniform float cutoff;\n"
-                                      "uniform int primitive_first;\n"
+                                      "uniform int primitive_first, object_id;\n"
                                       "uniform usamplerBuffer clusters;\n"
                                       "in vec4 f_color;\n"
                                       "#if defined(TEXTURE) || defined(GLOW)\n"
@@ -82,7 +149,11 @@ static const char fragment_main[] = "void main() {\n"
                                     "    base.a = 1.0;\n"
                                     "#endif\n"
                                     "#ifdef IDS\n"
+                                    "#ifdef MOVER\n"
+                                    "    uint id = uint(object_id);\n"
+                                    "#else\n"
                                     "    uint id = texelFetch(clusters, primitive_first + gl_PrimitiveID).r + 1u;\n"
+                                    "#endif\n"
                                     "    pixel = vec4(id & 255u, (id >> 8u) & 255u, (id >> 16u) & 255u, id >> 24u) / 255.0;\n"
                                     "#else\n"
                                     "#ifdef LIT\n"
@@ -114,16 +185,20 @@ static void add_define(char defines[DEFINES_SIZE], bool wanted, const char *name
 }
 
 static void write_defines(char defines[DEFINES_SIZE], int kind, bool light_map) {
-    bool surface = kind < ENF_GL_PROGRAM_IDS, masked_ids = kind == ENF_GL_PROGRAM_IDS_MASK;
+    bool surface = kind < ENF_GL_PROGRAM_IDS;
+    bool masked_ids = kind == ENF_GL_PROGRAM_IDS_MASK || kind == ENF_GL_PROGRAM_MOVER_IDS_MASK;
+    bool ids = masked_ids || kind == ENF_GL_PROGRAM_IDS || kind == ENF_GL_PROGRAM_MOVER_IDS;
+    bool mover = surface ? (kind & ENF_GL_MOVER) != 0 : kind >= ENF_GL_PROGRAM_MOVER_IDS && kind < ENF_GL_PROGRAM_LINES;
     bool lit = surface && (kind & ENF_GL_LIT);
-    defines[0] = '\0';
+    snprintf(defines, DEFINES_SIZE, "#define MOVER_VECTORS %d\n", ENF_GL_MOVER_VECTORS);
+    add_define(defines, mover, "MOVER");
     add_define(defines, lit, "LIT");
-    add_define(defines, lit && light_map, "LIGHT_MAP");
+    add_define(defines, lit && light_map && !mover, "LIGHT_MAP");
     add_define(defines, (surface && (kind & ENF_GL_MASK)) || masked_ids, "MASK");
     add_define(defines, (surface && (kind & ENF_GL_TEXTURE)) || masked_ids, "TEXTURE");
     add_define(defines, surface && (kind & ENF_GL_GLOW), "GLOW");
-    add_define(defines, kind == ENF_GL_PROGRAM_IDS || masked_ids, "IDS");
-    add_define(defines, kind == ENF_GL_PROGRAM_FLAT, "FLAT");
+    add_define(defines, ids, "IDS");
+    add_define(defines, kind == ENF_GL_PROGRAM_FLAT || kind == ENF_GL_PROGRAM_MOVER_FLAT, "FLAT");
     add_define(defines, kind == ENF_GL_PROGRAM_LINES, "LINES");
 }
 
@@ -174,9 +249,9 @@ static void find_uniforms(const EnfGlFunctions *gl, EnfGlProgram *program) {
 }
 
 static EnfResult create_program(const EnfGlFunctions *gl, EnfGlProgram *program, const char *variant, EnfError *error) {
-    const char *const vertex_parts[] = {version, variant, vertex_source};
+    const char *const vertex_parts[] = {version, variant, vertex_source, mover_source, vertex_main};
     const char *const fragment_parts[] = {version, variant, fragment_inputs, fragment_main};
-    GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_parts, 3, error);
+    GLuint vertex = compile(gl, GL_VERTEX_SHADER, vertex_parts, 5, error);
     GLuint fragment = vertex ? compile(gl, GL_FRAGMENT_SHADER, fragment_parts, 4, error) : 0;
     bool good = false;
     if (fragment) {
@@ -191,7 +266,7 @@ static EnfResult create_program(const EnfGlFunctions *gl, EnfGlProgram *program,
     return good ? ENF_OK : ENF_ERROR_SHADER;
 }
 
-EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint32_t needed,
+EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint64_t needed,
                                  bool light_map, EnfError *error) {
     for (int i = 0; i < ENF_GL_PROGRAM_COUNT; i++) {
         char defines[DEFINES_SIZE];

@@ -4,15 +4,18 @@
 
 #include "gl/gl_functions.h"
 
-/** A surface's variant is a sum of these: what its material lacks costs nothing. */
-enum { ENF_GL_LIT = 1, ENF_GL_MASK = 2, ENF_GL_TEXTURE = 4, ENF_GL_GLOW = 8 };
+/** A surface's variant is a sum of these: what its material lacks costs nothing. MOVER: of a moving object. */
+enum { ENF_GL_LIT = 1, ENF_GL_MASK = 2, ENF_GL_TEXTURE = 4, ENF_GL_GLOW = 8, ENF_GL_MOVER = 16 };
 
 /** Programs: the variants of surfaces by number, then those for other purposes. */
 typedef enum EnfGlProgramKind {
     ENF_GL_PROGRAM_SURFACE = 0,
-    ENF_GL_PROGRAM_IDS = 16,
+    ENF_GL_PROGRAM_IDS = 32,
     ENF_GL_PROGRAM_IDS_MASK,
-    ENF_GL_PROGRAM_FLAT,  /**< one colour, for wireframe */
+    ENF_GL_PROGRAM_FLAT,      /**< one colour, for wireframe */
+    ENF_GL_PROGRAM_MOVER_IDS, /**< the same three for moving objects */
+    ENF_GL_PROGRAM_MOVER_IDS_MASK,
+    ENF_GL_PROGRAM_MOVER_FLAT,
     ENF_GL_PROGRAM_LINES, /**< vertices of their own */
     ENF_GL_PROGRAM_COUNT
 } EnfGlProgramKind;
@@ -26,6 +29,11 @@ typedef enum EnfGlProgramKind {
     X(emissive)                                                                                                                \
     X(cutoff)                                                                                                                  \
     X(light_map_scale)                                                                                                         \
+    X(mover)                                                                                                                   \
+    X(ambient)                                                                                                                 \
+    X(two_sided)                                                                                                               \
+    X(lamps)                                                                                                                   \
+    X(object_id)                                                                                                               \
     X(primitive_first)                                                                                                         \
     X(flat_color)
 
@@ -57,11 +65,12 @@ enum {
     ENF_GL_ATTRIBUTE_COLOR,
     ENF_GL_ATTRIBUTE_CELL,
     ENF_GL_ATTRIBUTE_LIGHT,
-    ENF_GL_ATTRIBUTE_LIGHT_UV
+    ENF_GL_ATTRIBUTE_LIGHT_UV,
+    ENF_GL_ATTRIBUTE_NORMAL /**< of moving objects, in place of baked light */
 };
 
 /** Compiles and links the programs whose bits are set in `needed`; the others stay 0. SHADER with the driver's log. */
-EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint32_t needed,
+EnfResult enf_gl_programs_create(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT], uint64_t needed,
                                  bool light_map, EnfError *error);
 void enf_gl_programs_destroy(const EnfGlFunctions *gl, EnfGlProgram programs[ENF_GL_PROGRAM_COUNT]);
 

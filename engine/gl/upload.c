@@ -95,6 +95,10 @@ static EnfResult upload_light(EnfGl *gl, EnfError *error) {
             create_light_map(gl, &bake);
         }
         result = enf_gl_check(gl, "the light of this map", error);
+        gl->lights = bake.lights; /* kept for what moves */
+        memset(&bake.lights, 0, sizeof bake.lights);
+        gl->ambient = bake.ambient;
+        gl->lamps = bake.lamps;
     }
     enf_gl_bake_free(&bake);
     return result;
@@ -123,6 +127,26 @@ static void set_attributes(EnfGl *gl) {
     }
 }
 
+/* A mover's vertices: normals instead of light. */
+static void create_mover_array(EnfGl *gl) {
+    const EnfGlFunctions *f = &gl->f;
+    const GLsizei stride = sizeof(EnfVertex);
+    f->GenVertexArrays(1, &gl->mover_array);
+    f->BindVertexArray(gl->mover_array);
+    f->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, gl->index_buffer);
+    f->BindBuffer(GL_ARRAY_BUFFER, gl->vertex_buffer);
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, position)));
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_UV, 2, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, uv)));
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(EnfVertex, color)));
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_NORMAL, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride,
+                           at(offsetof(EnfVertex, normal)));
+    f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_POSITION);
+    f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_UV);
+    f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_COLOR);
+    f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_NORMAL);
+    f->BindVertexArray(0);
+}
+
 static EnfResult upload_vertices(EnfGl *gl, EnfError *error) {
     const EnfGlFunctions *f = &gl->f;
     const EnfMap *map = gl->map;
@@ -137,6 +161,9 @@ static EnfResult upload_vertices(EnfGl *gl, EnfError *error) {
                   GL_STATIC_DRAW);
     set_attributes(gl);
     f->BindVertexArray(0);
+    if (map->meshes_count > 0) {
+        create_mover_array(gl);
+    }
     return enf_gl_check(gl, "the vertices of this map", error);
 }
 
@@ -177,12 +204,13 @@ EnfResult enf_gl_upload_geometry(EnfGl *gl, EnfError *error) {
 void enf_gl_free_geometry(EnfGl *gl) {
     const EnfMap *map = gl->map;
     const GLuint buffers[] = {gl->vertex_buffer, gl->light_buffer, gl->light_uv_buffer, gl->index_buffer, gl->line_buffer};
-    const GLuint arrays[] = {gl->vertex_array, gl->line_array};
-    gl->f.DeleteVertexArrays(2, arrays);
+    const GLuint arrays[] = {gl->vertex_array, gl->line_array, gl->mover_array};
+    gl->f.DeleteVertexArrays(3, arrays);
     gl->f.DeleteBuffers(5, buffers);
     free_table(gl, &gl->offsets);
     gl->f.DeleteTextures(1, &gl->light_map);
     free_table(gl, &gl->clusters);
+    enf_gl_lights_free(&gl->lights);
     enf_free(NULL, gl->offset_staging, (size_t)map->cells_count + 1, sizeof *gl->offset_staging);
     enf_free(NULL, gl->counts, (size_t)map->clusters_count + 1, sizeof *gl->counts);
     enf_free(NULL, gl->starts, (size_t)map->clusters_count + 1, sizeof *gl->starts);

@@ -117,6 +117,7 @@ const EnfVisSet *enf_vis_run(EnfVis *vis, const EnfPortals *portals, const EnfVi
     if (view->dbv != NULL) {
         vis->set.objects = enf_dbv_end(view->dbv, &vis->set.object_count);
         vis->set.objects_failed = vis->set.objects_failed || enf_dbv_failed(view->dbv);
+        vis->set.objects_listed = !vis->set.objects_failed;
     }
     return &vis->set;
 }

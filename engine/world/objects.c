@@ -19,6 +19,7 @@ struct EnfWorld {
     const EnfMap *map;
     const EnfAllocator *allocator;
     int64_t tick;
+    bool trail; /* boxes hold the tick before, too */
     uint64_t evaluations;
     Object *objects;
     EnfMotion *motions;
@@ -141,6 +142,7 @@ static bool reserve_change(EnfWorld *world) {
 }
 
 static void note_change(EnfWorld *world, uint32_t index) {
+    world->motions[index].set_tick = (uint32_t)world->tick;
     world->changes[world->change_count++] = index;
 }
 
@@ -256,19 +258,61 @@ EnfPose enf_world_pose(EnfWorld *world, uint32_t index) {
     return enf_motion_state(&world->motions[index], world->tick);
 }
 
+/* ---- trails ----------------------------------------------------------------------------------------------------- */
+
+void enf_world_set_trail(EnfWorld *world, bool on) {
+    world->trail = on;
+}
+
+bool enf_world_has_trail(const EnfWorld *world) {
+    return world->trail;
+}
+
+/* Half the tick is kept: 2^32 ticks after its event an object is taken for one just set, for one tick, and is blended from where it
+ * is: every box agrees. */
+static bool has_last(const EnfWorld *world, uint32_t index) {
+    return world->trail && world->motions[index].set_tick != (uint32_t)world->tick;
+}
+
+bool enf_world_last_pose(EnfWorld *world, uint32_t index, EnfPose *pose) {
+    if (!has_last(world, index)) {
+        *pose = enf_world_pose(world, index);
+        return false;
+    }
+    world->evaluations++;
+    *pose = enf_motion_state(&world->motions[index], world->tick - 1);
+    return true;
+}
+
+/* ---- boxes ------------------------------------------------------------------------------------------------------ */
+
 /* The box of one pose is the bound of a motion that stands still there. */
-EnfBox3f enf_world_box(EnfWorld *world, uint32_t index) {
+static EnfBox3 pose_box(const EnfWorld *world, uint32_t index, EnfPose pose) {
     EnfMotion still;
     still.kind = ENF_MOTION_STILL;
-    still.as.still = enf_world_pose(world, index);
-    return enf_box3f_outward(enf_motion_bound(&still, &world->objects[index].local, world->tick, world->tick));
+    still.as.still = pose;
+    return enf_motion_bound(&still, &world->objects[index].local, world->tick, world->tick);
+}
+
+/* Adds where the object was one tick ago. */
+static EnfBox3 with_trail(EnfWorld *world, uint32_t index, EnfBox3 box) {
+    EnfPose last;
+    return has_last(world, index) && enf_world_last_pose(world, index, &last)
+               ? enf_box3_union(box, pose_box(world, index, last))
+               : box;
+}
+
+EnfBox3f enf_world_box(EnfWorld *world, uint32_t index) {
+    EnfBox3 box = pose_box(world, index, enf_world_pose(world, index));
+    return enf_box3f_outward(with_trail(world, index, box));
 }
 
 EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until) {
     if (world->motions[index].kind == ENF_MOTION_FREE) {
         refresh_free(world, index);
     }
-    return enf_box3f_outward(enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until));
+    EnfBox3 box = enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until);
+    return enf_box3f_outward(with_trail(world, index, box));
 }
 
 bool enf_world_is_confined(const EnfWorld *world, uint32_t index) {

@@ -76,14 +76,14 @@ static void shoot(Stage *stage, const EnfDrawList *list, EnfRenderMode mode, uin
 static void shoot_all(Stage *stage, const EnfView *view) {
     EnfView all = *view;
     all.cull = ENF_CULL_NONE;
-    const EnfDrawList *list = enf_draw_build(stage->draw_all, enf_vis_run(stage->vis_all, &stage->portals, &all), NEAR);
+    const EnfDrawList *list = enf_draw_build(stage->draw_all, enf_vis_run(stage->vis_all, &stage->portals, &all), NEAR, NULL, 1.0);
     shoot(stage, list, ENF_RENDER_COLOR, stage->pictures[0]);
     shoot(stage, list, ENF_RENDER_IDS, stage->pictures[1]);
 }
 
 /* Draws what `view` sees into pictures 2 and 3; returns its list. */
 static const EnfDrawList *shoot_culled(Stage *stage, const EnfView *view) {
-    const EnfDrawList *list = enf_draw_build(stage->draw, enf_vis_run(stage->vis, &stage->portals, view), NEAR);
+    const EnfDrawList *list = enf_draw_build(stage->draw, enf_vis_run(stage->vis, &stage->portals, view), NEAR, NULL, 1.0);
     shoot(stage, list, ENF_RENDER_COLOR, stage->pictures[2]);
     shoot(stage, list, ENF_RENDER_IDS, stage->pictures[3]);
     return list;

@@ -148,11 +148,11 @@ static void culled_lists_are_subsequences(void **state) {
         assert_int_equal(enf_draw_create(&draw, &fixture->map, NULL, NULL), ENF_OK);
         uint32_t all[CLUSTERS], part[CLUSTERS];
         see(fixture, &rng, 1);
-        const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02);
+        const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
         uint32_t all_count = expand(fixture, list, all);
         check_complete(fixture, list, all, all_count);
         see(fixture, &rng, 1 + enf_test_below(&rng, 20));
-        list = enf_draw_build(draw, &fixture->set, 0.02);
+        list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
         uint32_t part_count = expand(fixture, list, part);
         check_complete(fixture, list, part, part_count);
         assert_true(is_subsequence(part, part_count, all, all_count));
@@ -177,7 +177,7 @@ static void blended_clusters_come_last_and_back_to_front(void **state) {
     EnfDraw *draw;
     assert_int_equal(enf_draw_create(&draw, &fixture->map, NULL, NULL), ENF_OK);
     see(fixture, &rng, 1);
-    const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02);
+    const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
     double last = (double)INFINITY;
     uint32_t material = 0;
     for (uint32_t b = 0; b < list->batch_count; b++) {
@@ -207,11 +207,11 @@ static void other_spaces_are_left_out(void **state) {
     EnfVisEntry entries[] = {{3, 0, 0}, {5, 1, 1}, {0, 2, 2}};
     memcpy(fixture->entries, entries, sizeof entries);
     fixture->set.entry_count = 3;
-    const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02);
+    const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
     assert_int_equal(list->cluster_count, 1);
     assert_int_equal(list->ranges[0].cluster, 3);
     fixture->set.entry_count = 0;
-    list = enf_draw_build(draw, &fixture->set, 0.02);
+    list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
     assert_int_equal(list->batch_count, 0);
     assert_int_equal(list->cell_count, 0);
     enf_draw_destroy(draw);
@@ -242,7 +242,7 @@ static void shared_vertices_are_bit_equal(void **state) {
         }
         fixture->set.entry_count = 2;
         fixture->camera.eye_ws.x = eye;
-        const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02);
+        const EnfDrawList *list = enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
         assert_int_equal(list->cell_count, 2);
         float sums[2];
         for (uint32_t i = 0; i < 2; i++) {
@@ -263,7 +263,7 @@ static void the_projection_has_no_far_plane(void **state) {
     Fixture *fixture = make_fixture(&rng);
     EnfDraw *draw;
     assert_int_equal(enf_draw_create(&draw, &fixture->map, NULL, NULL), ENF_OK);
-    const float *m = enf_draw_build(draw, &fixture->set, 0.25)->clip_from_eye;
+    const float *m = enf_draw_build(draw, &fixture->set, 0.25, NULL, 1.0)->clip_from_eye;
     /* Right edge, upper edge and a depth of 0.25, 1 and 1e6 along −Z. */
     const double depths[] = {0.25, 1.0, 1e6}, depth_ndc[] = {-1.0, 0.5, 1.0};
     for (int i = 0; i < 3; i++) {
@@ -307,7 +307,7 @@ static void a_frame_makes_no_heap_call(void **state) {
     uint32_t before = count.calls;
     for (uint32_t round = 0; round < 20; round++) {
         see(fixture, &rng, 1 + round);
-        enf_draw_build(draw, &fixture->set, 0.02);
+        enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
     }
     assert_int_equal(count.calls, before);
     enf_draw_destroy(draw);

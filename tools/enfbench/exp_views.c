@@ -99,7 +99,7 @@ static bool open_stage(BenchRun *run, Stage *stage, const BenchScene *scene) {
 
 static const EnfDrawList *draw_once(Stage *stage, const EnfVisSet *set, EnfRenderMode mode) {
     enf_gl_target_bind(stage->target, mode);
-    const EnfDrawList *list = enf_draw_build(stage->draw, set, ENF_DRAW_NEAR);
+    const EnfDrawList *list = enf_draw_build(stage->draw, set, ENF_DRAW_NEAR, NULL, 1.0);
     enf_gl_draw(stage->gl, list, mode);
     return list;
 }

@@ -212,7 +212,7 @@ EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error) {
             entries[culled.entry_count++] = entry;
         }
     }
-    const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR);
+    const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR, NULL, 1.0);
     enf_gl_draw_wireframe(overlay->viewer->gl, list, 0x38a0a0a0u);
     enf_free(NULL, entries, (size_t)map->clusters_count + 1, sizeof *entries);
     return ENF_OK;

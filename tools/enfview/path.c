@@ -7,7 +7,7 @@ static void look(Viewer *viewer, Walk *walk, Tally *tally) {
     double start = viewer_now_us();
     const EnfVisSet *set = enf_vis_run(viewer->vis, &viewer->portals, &view);
     Measure measure = {.vis_us = viewer_now_us() - start, .cells = set->cell_count};
-    measure.clusters = enf_draw_build(viewer->draw, set, ENFVIEW_NEAR)->cluster_count;
+    measure.clusters = enf_draw_build(viewer->draw, set, ENFVIEW_NEAR, NULL, 1.0)->cluster_count;
     walk_write_cells(walk, set);
     tally_add(tally, &measure);
     tally_print_row(tally, walk, &measure, false);

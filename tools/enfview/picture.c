@@ -48,7 +48,7 @@ static EnfResult see(Shot *shot, EnfError *error) {
     shot->seen.cameras = &shot->observer;
     for (int i = 0; i < VIS_RUNS; i++) {
         double start = viewer_now_us();
-        shot->list = enf_draw_build(viewer->draw, &shot->seen, ENFVIEW_NEAR);
+        shot->list = enf_draw_build(viewer->draw, &shot->seen, ENFVIEW_NEAR, NULL, 1.0);
         samples[i] = viewer_now_us() - start;
     }
     shot->draw_us = viewer_quantile(samples, VIS_RUNS, 0.5);

@@ -45,7 +45,7 @@ static double draw_frame(Proof *proof, EnfVis *vis, EnfDraw *draw, const EnfView
     enf_gl_target_bind(viewer->target, ENF_RENDER_COLOR);
     viewer->finish();
     double start = viewer_now_us();
-    *list = enf_draw_build(draw, enf_vis_run(vis, &viewer->portals, view), ENFVIEW_NEAR);
+    *list = enf_draw_build(draw, enf_vis_run(vis, &viewer->portals, view), ENFVIEW_NEAR, NULL, 1.0);
     enf_gl_draw(viewer->gl, *list, ENF_RENDER_COLOR);
     viewer->finish();
     return (viewer_now_us() - start) * 1e-3;

@@ -74,6 +74,7 @@ typedef struct EnfVisSet {
     uint32_t entry_count;
     const uint32_t *objects; /**< moving objects drawn, ascending (EnfView.dbv; any space) */
     uint32_t object_count;
+    bool objects_listed;      /**< an index answered: what is not in `objects` is hidden. Else every object must be drawn */
     bool objects_failed;      /**< memory ran out in the index: every object must be drawn */
     const EnfCamera *cameras; /**< one a space: the eye as that space sees it; [0] is the view's camera */
     uint32_t space_count;

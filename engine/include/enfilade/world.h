@@ -91,10 +91,12 @@ typedef struct EnfFreeMotion {
     EnfPose pose;
     int64_t push_tick;                              /**< when `pose` was true */
     double max_speed;                               /**< metres a second, of any point of the object, turning included */
-    EnfPose (*ask)(const void *user, int64_t tick); /**< where it is now (a simulation, a server), or NULL: it is pushed */
+    EnfPose (*ask)(const void *user, int64_t tick); /**< where it is now (a simulation, a server), or NULL: it is pushed. With
+                                                         trails (enf_world_set_trail) also where it was one tick ago */
     const void *user;
     /** It passes no wall and keeps its size: its box comes to touch a cell (enf_world_touches) only by touching a portal that
-     *  leads there from a cell touched before. A promise of the caller; with it volumes need not leak through walls. */
+     *  leads there from a cell touched before. A promise of the caller (with trails: of the box
+     *  that holds both ticks); with it volumes need not leak through walls. */
     bool confined;
 } EnfFreeMotion;
 
@@ -116,6 +118,7 @@ typedef enum EnfMotionKind {
 
 typedef struct EnfMotion {
     EnfMotionKind kind;
+    uint32_t set_tick; /**< the world's: low half of the tick in which it was set */
     union {
         EnfPose still;
         EnfPathMotion path;
@@ -196,9 +199,18 @@ uint32_t enf_world_object_limit(const EnfWorld *world);
 EnfObjectId enf_world_object(const EnfWorld *world, uint32_t index);
 uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index);
 
+/** With trails, enf_world_box and enf_world_bound hold an object also where it was one tick ago, so that a picture between two
+ *  ticks, its matrices blended, loses nothing: a blended point lies on the chord between its two places. Objects that were added,
+ *  teleported, re-parameterised or sent (a door) in this tick were nowhere else: they do not smear. Off at first. Call it before an
+ *  index is made over the world (enf_dbv_create). */
+void enf_world_set_trail(EnfWorld *world, bool on);
+bool enf_world_has_trail(const EnfWorld *world);
+
 /** Pose and world box (float, rounded outward) of a living object at the world's tick; each counts as one evaluation. */
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index);
 EnfBox3f enf_world_box(EnfWorld *world, uint32_t index);
+/** Where a living object was one tick ago. False, and its pose now, without trails or where it was set in this tick. */
+bool enf_world_last_pose(EnfWorld *world, uint32_t index, EnfPose *pose);
 /** A box that holds the object at every tick from now to `until` (asks a FREE one where it is, first). */
 EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until);
 double enf_world_max_speed(const EnfWorld *world, uint32_t index);
