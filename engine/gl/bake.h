@@ -17,7 +17,7 @@ typedef struct EnfGlBake {
     uint8_t *texels;          /**< RGBA8, width × height; the block at the corner is full */
     uint32_t width, height;
     uint32_t vertex_count;
-    bool has_charts; /**< without any, the texels are the full block alone */
+    bool has_charts;    /**< without any, the texels are the full block alone */
     EnfGlLights lights; /**< what it was made from, for what moves */
     EnfGlAmbient ambient;
     bool lamps; /**< the map has lights: the brightest are dimmed (enf_gl_bake_build) */

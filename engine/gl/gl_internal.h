@@ -24,10 +24,10 @@ struct EnfGl {
     EnfGlAmbient ambient;
     bool lamps;
     EnfGlMoverLights mover_lights; /**< of the object drawn last */
-    GLuint light_map;           /**< 0: all light is at the vertices */
-    float light_map_scale[2];   /**< 1/32 texel → texture coordinates */
-    float (*offset_staging)[4]; /**< a cell; only those of the list drawn are current */
-    GLsizei *counts;            /**< a cluster: arguments of a multi-draw */
+    GLuint light_map;              /**< 0: all light is at the vertices */
+    float light_map_scale[2];      /**< 1/32 texel → texture coordinates */
+    float (*offset_staging)[4];    /**< a cell; only those of the list drawn are current */
+    GLsizei *counts;               /**< a cluster: arguments of a multi-draw */
     const void **starts;
     GLuint *images;   /**< a texture for each image of the map */
     GLuint *samplers; /**< a sampler for each texture of the map */

@@ -25,10 +25,10 @@ typedef struct EnfGlCellLight {
 } EnfGlCellLight;
 
 typedef struct EnfGlLights {
-    EnfGlLight *lights;      /**< the lists, one after the other; [0] is dark, the list of whoever has none */
-    float (*planes)[4];      /**< n·p + d: 0 at the outer border of a window's soft edge, 1 at the inner; n = 0 ends a
+    EnfGlLight *lights;          /**< the lists, one after the other; [0] is dark, the list of whoever has none */
+    float (*planes)[4];          /**< n·p + d: 0 at the outer border of a window's soft edge, 1 at the inner; n = 0 ends a
                                    window; [0] is such an end: all is lit */
-    uint32_t *cluster_lists; /**< a cluster's list: first light << 8 | lights - 1; never empty */
+    uint32_t *cluster_lists;     /**< a cluster's list: first light << 8 | lights - 1; never empty */
     EnfGlCellLight *cell_lights; /**< of all cells, one cell's after the other's */
     uint32_t *cell_firsts;       /**< cells + 1: where a cell's begin */
     uint32_t light_count, light_capacity, plane_count, plane_capacity, cluster_count;

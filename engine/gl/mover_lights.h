@@ -13,15 +13,14 @@ enum {
     ENF_GL_MOVER_HEAD = 4,         /**< the matrix and the counts */
     ENF_GL_MOVER_LIGHT_VECTORS = 3 /**< a light */
 };
-#define ENF_GL_MOVER_VECTORS                                                                                                   \
-    (ENF_GL_MOVER_HEAD + ENF_GL_MOVER_LIGHTS * ENF_GL_MOVER_LIGHT_VECTORS + ENF_GL_MOVER_PLANES)
+#define ENF_GL_MOVER_VECTORS (ENF_GL_MOVER_HEAD + ENF_GL_MOVER_LIGHTS * ENF_GL_MOVER_LIGHT_VECTORS + ENF_GL_MOVER_PLANES)
 
 /** The uniform `mover`: the columns of the matrix, each with a component of the translation; (lights, 0, 0, 0); then a light each:
  *  (position, 1 / range²), (colour, windows), (aim, aim offset); then planes. Positions are relative to the model's origin, axes are
  *  the world's. Windows are first plane × 128 + planes, planes as in EnfGlLights; 0: all is lit. 116 vectors: OpenGL 3.3 allows 256. */
 typedef struct EnfGlMoverLights {
     float vectors[ENF_GL_MOVER_VECTORS][4];
-    uint32_t count;                        /**< vectors used */
+    uint32_t count; /**< vectors used */
     uint32_t light_count;
     uint32_t numbers[ENF_GL_MOVER_LIGHTS]; /**< in EnfMap.lights, brightest first */
 } EnfGlMoverLights;

@@ -64,8 +64,9 @@ EnfGlProgramKind enf_gl_program_kind(const EnfMaterial *material, EnfRenderMode 
     if (mode == ENF_RENDER_IDS) {
         return masked ? ENF_GL_PROGRAM_IDS_MASK : ENF_GL_PROGRAM_IDS;
     }
-    return (EnfGlProgramKind)((mover ? ENF_GL_MOVER : 0) + ENF_GL_PROGRAM_SURFACE + (material->flags & ENF_MATERIAL_UNLIT ? 0 : ENF_GL_LIT) +
-                              (masked ? ENF_GL_MASK : 0) + (material->texture != ENF_NONE ? ENF_GL_TEXTURE : 0) +
+    return (EnfGlProgramKind)((mover ? ENF_GL_MOVER : 0) + ENF_GL_PROGRAM_SURFACE +
+                              (material->flags & ENF_MATERIAL_UNLIT ? 0 : ENF_GL_LIT) + (masked ? ENF_GL_MASK : 0) +
+                              (material->texture != ENF_NONE ? ENF_GL_TEXTURE : 0) +
                               (material->emissive_texture != ENF_NONE ? ENF_GL_GLOW : 0));
 }
 

@@ -138,8 +138,7 @@ static void create_mover_array(EnfGl *gl) {
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, position)));
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_UV, 2, GL_FLOAT, GL_FALSE, stride, at(offsetof(EnfVertex, uv)));
     f->VertexAttribPointer(ENF_GL_ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, GL_TRUE, stride, at(offsetof(EnfVertex, color)));
-    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_NORMAL, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride,
-                           at(offsetof(EnfVertex, normal)));
+    f->VertexAttribPointer(ENF_GL_ATTRIBUTE_NORMAL, 4, GL_INT_2_10_10_10_REV, GL_TRUE, stride, at(offsetof(EnfVertex, normal)));
     f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_POSITION);
     f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_UV);
     f->EnableVertexAttribArray(ENF_GL_ATTRIBUTE_COLOR);

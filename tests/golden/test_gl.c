@@ -76,7 +76,8 @@ static void shoot(Stage *stage, const EnfDrawList *list, EnfRenderMode mode, uin
 static void shoot_all(Stage *stage, const EnfView *view) {
     EnfView all = *view;
     all.cull = ENF_CULL_NONE;
-    const EnfDrawList *list = enf_draw_build(stage->draw_all, enf_vis_run(stage->vis_all, &stage->portals, &all), NEAR, NULL, 1.0);
+    const EnfDrawList *list = enf_draw_build(stage->draw_all, enf_vis_run(stage->vis_all, &stage->portals, &all), NEAR, NULL,
+                                             1.0);
     shoot(stage, list, ENF_RENDER_COLOR, stage->pictures[0]);
     shoot(stage, list, ENF_RENDER_IDS, stage->pictures[1]);
 }
