@@ -38,6 +38,15 @@
  *  step's ends is decided without it. Pinned by tests/property/test_locate and test_track. */
 #define ENF_TOL_ROUNDING 0x1p-28
 
+/** What a moving capsule keeps from surfaces, metres: 2^-9 (2 mm, not seen). Far above the rounding of a sweep (2^-24 m), so that what
+ *  slides along a surface does not meet it again, and the next triangle of a floor not at all: contact counts from half of it.
+ *  Pinned by tests/property/test_collide. */
+#define ENF_TOL_SKIN 0x1p-9
+
+/** A sweep ends when the capsule is this near, metres, to contact; contact is half a skin away from the surface. Doubles of
+ *  positions within 2^20 m round by 2^-32. Pinned by tests/property/test_collide. */
+#define ENF_TOL_CONTACT 0x1p-24
+
 /** Windows are fixed point with this many steps a pixel. */
 #define ENF_WINDOW_STEPS 16
 
