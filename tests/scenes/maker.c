@@ -32,7 +32,7 @@ typedef struct Reach {
 } Reach;
 
 typedef struct MeshBox {
-    uint32_t material;
+    uint32_t mesh, material;
     EnfBox3 box;
 } MeshBox;
 
@@ -411,11 +411,23 @@ static void finish_clusters(EnfMaker *m) {
 
 uint32_t enf_maker_mesh(EnfMaker *m, const char *name, uint32_t material, EnfBox3 box) {
     EnfBox3f f = enf_box3f_outward(box);
-    MeshBox pending = {material, box};
-    EnfMesh mesh = {{f.min.x, f.min.y, f.min.z}, {f.max.x, f.max.y, f.max.z}, m->meshes.count, 1, enf_maker_string(m, name), 0};
+    MeshBox pending = {m->meshes.count, material, box};
+    EnfMesh mesh = {
+        {f.min.x, f.min.y, f.min.z}, {f.max.x, f.max.y, f.max.z}, m->mesh_boxes.count, 1, enf_maker_string(m, name), 0};
     ADD(m, mesh_boxes, &pending, 1);
     ADD(m, meshes, &mesh, 1);
     return m->meshes.count - 1;
+}
+
+void enf_maker_mesh_part(EnfMaker *m, uint32_t material, EnfBox3 box) {
+    EnfMesh *mesh = (EnfMesh *)m->meshes.data + m->meshes.count - 1;
+    EnfBox3f whole = {{mesh->min[0], mesh->min[1], mesh->min[2]}, {mesh->max[0], mesh->max[1], mesh->max[2]}};
+    EnfBox3f f = enf_box3f_outward(enf_box3_union(enf_box3_from_f(whole), box));
+    EnfMesh grown = {
+        {f.min.x, f.min.y, f.min.z}, {f.max.x, f.max.y, f.max.z}, mesh->part_first, mesh->part_count + 1, mesh->name, 0};
+    MeshBox pending = {m->meshes.count - 1, material, box};
+    *mesh = grown;
+    ADD(m, mesh_boxes, &pending, 1);
 }
 
 EnfMover enf_maker_mover_default(void) {
@@ -455,7 +467,7 @@ static void add_side(EnfMaker *m, EnfBox3 box, int axis, bool up) {
 static void finish_meshes(EnfMaker *m) {
     const MeshBox *boxes = m->mesh_boxes.data;
     for (uint32_t i = 0; i < m->mesh_boxes.count; i++) {
-        EnfMeshPart part = {i, boxes[i].material, m->indices.count, 36, m->vertices.count, 24};
+        EnfMeshPart part = {boxes[i].mesh, boxes[i].material, m->indices.count, 36, m->vertices.count, 24};
         for (int axis = 0; axis < 3; axis++) {
             add_side(m, boxes[i].box, axis, false);
             add_side(m, boxes[i].box, axis, true);

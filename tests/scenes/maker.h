@@ -58,6 +58,8 @@ uint32_t enf_maker_camera(EnfMaker *maker, const EnfMapCamera *camera);
 
 /** A mesh that moves: a box of one material in its own space, fronts outward. Returns its index. */
 uint32_t enf_maker_mesh(EnfMaker *maker, const char *name, uint32_t material, EnfBox3 box);
+/** One more box of the newest mesh, of a material with a higher number. */
+void enf_maker_mesh_part(EnfMaker *maker, uint32_t material, EnfBox3 box);
 uint32_t enf_maker_mover(EnfMaker *maker, const EnfMover *mover);
 /** A mover's fields that mean nothing: no entity's mesh, path or portal, a slide of no length along +Y at 1 m/s. */
 EnfMover enf_maker_mover_default(void);

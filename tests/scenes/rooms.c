@@ -30,7 +30,7 @@ static double random_between(uint64_t *state, double low, double high) {
 }
 
 EnfRoomsDef enf_rooms_def_default(void) {
-    EnfRoomsDef def = {4, 4, {0, 0, 0}, {5, 3, 5}, 1, 2, 100, 4, false, true, 1};
+    EnfRoomsDef def = {4, 4, {0, 0, 0}, {5, 3, 5}, 1, 2, 100, 4, false, true, 1, NULL};
     return def;
 }
 
@@ -254,6 +254,9 @@ bool enf_rooms_create(EnfRooms *rooms, const EnfRoomsDef *def, EnfError *error) 
         add_room(rooms, cell, &random);
     }
     add_spawn(rooms);
+    if (d->extend) {
+        d->extend(rooms->maker);
+    }
     rooms->map = enf_maker_finish(rooms->maker, error);
     if (!rooms->map) {
         enf_rooms_destroy(rooms);

@@ -15,6 +15,7 @@ typedef struct EnfRoomsDef {
     bool thresholds;                /**< a flat box through each door, listed in both rooms */
     bool lights;                    /**< a lamp a room */
     uint64_t seed;
+    void (*extend)(EnfMaker *maker); /**< adds what a scene needs beside rooms (meshes, materials), or NULL */
 } EnfRoomsDef;
 
 /** 4 × 4 rooms of 5 × 3 × 5 m at the origin, doors of 1 × 2 m in every wall, 4 boxes a room. */
