@@ -54,6 +54,7 @@ static void add_materials(EnfMaker *m) {
         const uint8_t texel[4] = {220, 200, 120, hole ? 0 : 255};
         memcpy(&lattice[4 * i], texel, 4);
     }
+    uint32_t texture = enf_maker_texture(m, enf_maker_image(m, 4, 4, lattice));
     enf_maker_material(m, "crate", 0.75f, 0.45f, 0.2f);
     enf_maker_material(m, "leaf", 0.25f, 0.35f, 0.6f);
     EnfMaterial *lamp = enf_maker_material(m, "glow", 1.0f, 0.9f, 0.6f);
@@ -63,11 +64,9 @@ static void add_materials(EnfMaker *m) {
     glass->base_color[3] = 0.4f;
     EnfMaterial *mesh = enf_maker_material(m, "lattice", 1.0f, 1.0f, 1.0f);
     mesh->alpha_mode = ENF_ALPHA_MASK;
+    mesh->texture = texture;
     mesh->flags = ENF_MATERIAL_DOUBLE_SIDED;
     enf_maker_material(m, "coat", 0.7f, 0.15f, 0.2f);
-    uint32_t texture = enf_maker_texture(m, enf_maker_image(m, 4, 4, lattice));
-    ENF_ASSERT(texture == 0);
-    (void)texture;
 }
 
 /* A figure has three parts, one of each kind that is drawn apart. */
