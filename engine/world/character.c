@@ -372,6 +372,10 @@ static void make_finite(EnfCharacter *body) {
 
 static void move_solid(EnfWalk *walk, const EnfCharacterInput *input) {
     EnfCharacter *body = walk->body;
+    uint32_t self = body->object == ENF_NONE ? ENF_NONE : enf_collide_solid_of(walk->collider, body->object);
+    if (self != ENF_NONE) {
+        enf_collide_ignore(walk->collider, self, ENF_IGNORED_SELF);
+    }
     enf_walk_pushed(walk);
     get_out(walk);
     crouch(walk, input->crouch && body->mode == ENF_CHARACTER_WALK);
@@ -386,7 +390,7 @@ static void move_solid(EnfWalk *walk, const EnfCharacterInput *input) {
             fall(walk, wish);
         }
     }
-    enf_collide_heed(walk->collider);
+    enf_collide_heed(walk->collider, ENF_IGNORED_OVERLAPPED | ENF_IGNORED_SELF);
 }
 
 static EnfWalk walk_make(EnfCharacter *body, EnfCollider *collider, EnfCharacterReport *report) {
@@ -421,7 +425,7 @@ bool enf_character_spawn(EnfCharacter *body, EnfCollider *collider, const EnfCha
     body->def = *def;
     body->height = def->height;
     body->ground_normal = up;
-    body->cell = body->ground_object = body->ground_cluster = ENF_NONE;
+    body->cell = body->ground_object = body->ground_cluster = body->object = ENF_NONE;
     EnfCapsule capsule = enf_character_capsule(body);
     bool free = enf_collide_way_out(collider, &capsule, feet_ws, 2.0, &body->position);
     body->good = body->position;

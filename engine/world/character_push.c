@@ -14,9 +14,9 @@ static bool is_zero(EnfVec3 v) {
 /* Slides the body by `delta`, not minding one solid: it is the one that pushes. */
 static void shove(EnfWalk *walk, uint32_t solid, EnfVec3 delta) {
     EnfTrial trial = enf_trial_make(walk);
-    enf_collide_ignore(walk->collider, solid);
+    enf_collide_ignore(walk->collider, solid, ENF_IGNORED_PUSHING);
     enf_trial_slide(walk, &trial, delta);
-    enf_collide_heed(walk->collider);
+    enf_collide_heed(walk->collider, ENF_IGNORED_PUSHING);
     trial.velocity = walk->body->velocity;
     enf_walk_commit(walk, &trial);
 }
@@ -71,7 +71,8 @@ void enf_walk_pushed(EnfWalk *walk) {
     for (int round = 0; round < ROUNDS; round++) {
         bool pushed = false;
         for (uint32_t i = 0; i < collider->near_count; i++) {
-            pushed = push(walk, collider->near[i], start) || pushed;
+            bool other = (collider->solids[collider->near[i]].ignored & ENF_IGNORED_SELF) == 0;
+            pushed = (other && push(walk, collider->near[i], start)) || pushed;
         }
         if (!pushed) {
             break;
@@ -80,7 +81,7 @@ void enf_walk_pushed(EnfWalk *walk) {
     if (enf_collide_ignore_overlapped(collider, &walk->capsule, body->position) > 0) {
         for (uint32_t i = 0; i < collider->near_count && walk->report->squeezed_by == ENF_NONE; i++) {
             const EnfSolid *solid = &collider->solids[collider->near[i]];
-            walk->report->squeezed_by = solid->ignored ? solid->object : ENF_NONE;
+            walk->report->squeezed_by = solid->ignored & ENF_IGNORED_OVERLAPPED ? solid->object : ENF_NONE;
         }
         walk->report->moved |= ENF_MOVED_SQUEEZED;
     }

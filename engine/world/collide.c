@@ -23,10 +23,6 @@ static size_t at_least_one(uint32_t count) {
     return count > 0 ? count : 1;
 }
 
-static bool material_collides(const EnfMaterial *material) {
-    return (material->flags & ENF_MATERIAL_NODRAW) == 0 && material->alpha_mode != ENF_ALPHA_BLEND;
-}
-
 static bool fill(EnfCollider *c) {
     const EnfMap *map = c->map;
     bool ok = true;
@@ -39,7 +35,7 @@ static bool fill(EnfCollider *c) {
         return false;
     }
     for (uint32_t i = 0; i < map->materials_count; i++) {
-        c->collides[i] = material_collides(&map->materials[i]);
+        c->collides[i] = enf_material_collides(&map->materials[i]);
     }
     for (uint32_t i = 0; i < map->cells_count; i++) {
         if (map->cells[i].flags & ENF_CELL_OUTSIDE) {
@@ -62,6 +58,9 @@ EnfResult enf_collider_create(EnfCollider **out, const EnfMap *map, EnfWorld *wo
     collider->region = enf_box3_empty();
     collider->tick = INT64_MIN;
     EnfResult result = fill(collider) ? ENF_OK : enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "a collider");
+    if (result == ENF_OK && world != NULL) {
+        result = enf_collide_add_movers(collider, error);
+    }
     if (result != ENF_OK) {
         enf_collider_destroy(collider);
         return result;
@@ -145,7 +144,7 @@ static bool counts(const EnfCollider *collider, const EnfNearTriangle *triangle,
     if (only != ENF_NONE) {
         return triangle->solid == only;
     }
-    return triangle->solid == ENF_NONE || !collider->solids[triangle->solid].ignored;
+    return triangle->solid == ENF_NONE || collider->solids[triangle->solid].ignored == 0;
 }
 
 static bool sweep_piece(EnfCollider *collider, EnfSweep *sweep, uint32_t only) {
@@ -234,29 +233,27 @@ uint32_t enf_collide_ignore_overlapped(EnfCollider *collider, const EnfCapsule *
     bool gathered = enf_collide_gather(collider, box);
     for (uint32_t i = collider->level_count; gathered && i < collider->count; i++) {
         const EnfNearTriangle *triangle = &collider->triangles[i];
-        EnfSolid *solid = &collider->solids[triangle->solid];
-        if (solid->ignored || !enf_box3_overlaps(box, triangle->box)) {
+        if (collider->solids[triangle->solid].ignored != 0 || !enf_box3_overlaps(box, triangle->box)) {
             continue;
         }
         EnfNearest nearest;
         enf_nearest(triangle, capsule, at_ws, enf_v3(0.0, 0.0, 0.0), &nearest);
         if (capsule->radius - nearest.distance > OVERLAP_MIN) {
-            solid->ignored = true;
-            collider->ignored = true;
+            enf_collide_ignore(collider, triangle->solid, ENF_IGNORED_OVERLAPPED);
             ignored++;
         }
     }
     return ignored;
 }
 
-void enf_collide_ignore(EnfCollider *collider, uint32_t solid) {
-    collider->solids[solid].ignored = true;
-    collider->ignored = true;
+void enf_collide_ignore(EnfCollider *collider, uint32_t solid, uint8_t why) {
+    collider->solids[solid].ignored |= why;
+    collider->ignored |= why;
 }
 
-void enf_collide_heed(EnfCollider *collider) {
-    for (uint32_t i = 0; collider->ignored && i < collider->solid_count; i++) {
-        collider->solids[i].ignored = false;
+void enf_collide_heed(EnfCollider *collider, uint8_t why) {
+    for (uint32_t i = 0; (collider->ignored & why) != 0 && i < collider->solid_count; i++) {
+        collider->solids[i].ignored &= (uint8_t)~why;
     }
-    collider->ignored = false;
+    collider->ignored &= (uint8_t)~why;
 }

@@ -39,6 +39,9 @@ typedef struct EnfSweep {
 EnfSweep enf_sweep_make(const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta);
 void enf_sweep_triangle(EnfSweep *sweep, const EnfNearTriangle *triangle);
 
+/** Why a solid does not count: it is the body itself; it is what pushes; the body is squeezed by it. */
+enum { ENF_IGNORED_SELF = 1, ENF_IGNORED_PUSHING = 2, ENF_IGNORED_OVERLAPPED = 4 };
+
 /** A thing that collides and moves. */
 typedef struct EnfSolid {
     EnfVec3f *corners; /**< 3 × count */
@@ -46,7 +49,8 @@ typedef struct EnfSolid {
     EnfBox3 local, bounds; /**< bounds: for all time, world; empty where it roams */
     EnfPose pose, before;  /**< at `tick`, and one tick earlier where that is known (else the same) */
     int64_t tick;          /**< of `pose`; INT64_MIN: never asked */
-    bool on, ignored;      /**< ignored: by the move that is being made */
+    bool on;
+    uint8_t ignored; /**< ENF_IGNORED_*: by the move that is being made */
 } EnfSolid;
 
 struct EnfCollider {
@@ -63,8 +67,8 @@ struct EnfCollider {
     EnfBox3 region; /* that they were gathered for; empty: none */
     int64_t tick;   /* at which the solids' triangles were taken */
     uint32_t changes;
-    bool failed;  /* no memory for all of them */
-    bool ignored; /* some solid is */
+    bool failed;     /* no memory for all of them */
+    uint8_t ignored; /* of any solid */
     EnfSolid *solids;
     uint32_t solid_count, solid_capacity;
     EnfKdBuilt tree; /* over the bounds of those that have some */
@@ -83,13 +87,19 @@ bool enf_collide_gather_solids(EnfCollider *collider);
 /** Room for `more` triangles. */
 bool enf_collide_reserve(EnfCollider *collider, uint32_t more);
 void enf_collide_put(EnfCollider *collider, const EnfVec3 corner[3], uint32_t cluster, uint32_t triangle, uint32_t solid);
+/** The solids of the map, at creation. */
+EnfResult enf_collide_add_movers(EnfCollider *collider, EnfError *error);
+/** enf_collider_add, for an object that may yet have to be added to the world. */
+EnfResult enf_collide_add_solid(EnfCollider *collider, const EnfSolidDef *def, uint32_t *number, EnfError *error);
+bool enf_material_collides(const EnfMaterial *material);
 /** As enf_collide_sweep, against one solid alone. */
 bool enf_collide_sweep_solid(EnfCollider *collider, const EnfCapsule *capsule, EnfVec3 from_ws, EnfVec3 delta, uint32_t solid,
                              EnfSweepHit *hit);
 /** Solids that the capsule overlaps are ignored from now on, until enf_collide_heed; returns how many. */
 uint32_t enf_collide_ignore_overlapped(EnfCollider *collider, const EnfCapsule *capsule, EnfVec3 at_ws);
-void enf_collide_ignore(EnfCollider *collider, uint32_t solid);
-void enf_collide_heed(EnfCollider *collider);
+void enf_collide_ignore(EnfCollider *collider, uint32_t solid, uint8_t why);
+/** Solids count again that were ignored for one of these reasons. */
+void enf_collide_heed(EnfCollider *collider, uint8_t why);
 /** Where a point that is fixed to a solid, and now (a tick ago) at `p`, is after this tick's motion. */
 EnfVec3 enf_solid_ride(const EnfSolid *solid, EnfVec3 p);
 /** The solid of an object; ENF_NONE if there is none. */

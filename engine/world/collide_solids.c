@@ -53,6 +53,10 @@ EnfResult enf_collider_add(EnfCollider *collider, const EnfSolidDef *def, uint32
         return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "solid of object %u with %u triangles", def->object,
                              def->triangle_count);
     }
+    return enf_collide_add_solid(collider, def, number, error);
+}
+
+EnfResult enf_collide_add_solid(EnfCollider *collider, const EnfSolidDef *def, uint32_t *number, EnfError *error) {
     EnfVec3f *corners = enf_alloc(collider->allocator, 3 * def->triangle_count, sizeof *corners);
     if (corners == NULL || !reserve_solids(collider)) {
         enf_free(collider->allocator, corners, 3 * def->triangle_count, sizeof *corners);
@@ -84,6 +88,16 @@ void enf_collider_set_solid(EnfCollider *collider, uint32_t object, bool on) {
         if (collider->solids[i].object == object && collider->solids[i].on != on) {
             collider->solids[i].on = on;
             collider->solids[i].tick = INT64_MIN;
+            collider->region = enf_box3_empty();
+        }
+    }
+}
+
+void enf_collider_set_bounds(EnfCollider *collider, uint32_t object, EnfBox3 bounds_ws) {
+    for (uint32_t i = 0; i < collider->solid_count; i++) {
+        if (collider->solids[i].object == object) {
+            collider->solids[i].bounds = bounds_ws;
+            collider->tree_stale = true;
             collider->region = enf_box3_empty();
         }
     }
@@ -236,7 +250,7 @@ bool enf_collide_gather_solids(EnfCollider *collider) {
 void enf_collider_reset(EnfCollider *collider) {
     for (uint32_t i = 0; i < collider->solid_count; i++) {
         collider->solids[i].tick = INT64_MIN;
-        collider->solids[i].ignored = false;
+        collider->solids[i].ignored = 0;
     }
     collider->region = enf_box3_empty();
     collider->tick = INT64_MIN;

@@ -316,6 +316,208 @@ static void test_wedge_between_slopes(void **state) {
     gym_close(&gym);
 }
 
+/* ---- solids ----------------------------------------------------------------------------------------------------- */
+
+/* A box that moves by `motion`, about its own origin. */
+static EnfObjectId gym_solid(Gym *gym, EnfBox3 box, const EnfMotion *motion, EnfBox3 bounds) {
+    EnfObjectDef def = enf_object_def_default();
+    EnfError error = {ENF_OK, 0, "", ""};
+    EnfVec3f corners[36];
+    uint32_t number;
+    def.motion = *motion;
+    def.local = box;
+    EnfObjectId id = enf_world_add(gym->world, &def, &error);
+    assert_int_not_equal(id.generation, 0);
+    enf_solid_box(box, corners);
+    EnfSolidDef solid = {id.index, corners, 12, bounds};
+    assert_int_equal(enf_collider_add(gym->collider, &solid, &number, &error), ENF_OK);
+    return id;
+}
+
+static EnfMotion swing(EnfMotionKind kind, EnfVec3 at, EnfVec3 axis, const double range[2], double rate) {
+    EnfMotion motion;
+    memset(&motion, 0, sizeof motion);
+    motion.kind = kind;
+    motion.as.swing.rest = enf_pose_identity();
+    motion.as.swing.rest.position = motion.as.swing.pivot = at;
+    motion.as.swing.axis = axis;
+    motion.as.swing.low = range[0];
+    motion.as.swing.high = range[1];
+    motion.as.swing.rate = rate;
+    return motion;
+}
+
+static const EnfBox3 everywhere = {{-20, -20, -20}, {20, 20, 20}};
+
+/* Up and down again: carried without a jump or a gap, and still on it. */
+static void test_elevator(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_ready(&gym);
+    EnfMotion lift = swing(ENF_MOTION_SLIDE, enf_v3(3.0, 0.125, 0.0), enf_v3(0, 1, 0), (double[]){0.0, 4.0}, 1.5);
+    EnfObjectId id = gym_solid(&gym, (EnfBox3){{-1.5, -0.125, -1.5}, {1.5, 0.125, 1.5}}, &lift, everywhere);
+    gym_spawn(&gym, enf_v3(0.0, 0.0, 0.0));
+    gym_go(&gym, wish(1.0, 0.0), 70);
+    gym_go(&gym, wish(0.0, 0.0), 30);
+    assert_int_equal(gym.body.ground_object, id.index);
+    assert_true(enf_world_swing(gym.world, id, 4.0));
+    for (int way = 0; way < 2; way++) {
+        for (int i = 0; i < 180; i++) {
+            gym_go(&gym, wish(0.0, 0.0), 1);
+            double floor = enf_world_pose(gym.world, id.index).position.y + 0.125;
+            assert_near(gym.body.position.y - floor, ENF_TOL_SKIN, 1e-5);
+            assert_true(grounded(&gym));
+            assert_false(gym.report.moved & (ENF_MOVED_SQUEEZED | ENF_MOVED_PUSHED));
+        }
+        assert_true(enf_world_swing(gym.world, id, 0.0));
+    }
+    gym_close(&gym);
+}
+
+/* Under a ceiling that is too low the lift squeezes, and says so; when it turns back all is well. */
+static void test_elevator_squeezes(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_box(&gym, enf_v3(-2.0, 3.0, -2.0), enf_v3(2.0, 3.5, 2.0));
+    gym_ready(&gym);
+    EnfMotion lift = swing(ENF_MOTION_SLIDE, enf_v3(0.0, 0.125, 0.0), enf_v3(0, 1, 0), (double[]){0.0, 4.0}, 1.5);
+    EnfObjectId id = gym_solid(&gym, (EnfBox3){{-1.5, -0.125, -1.5}, {1.5, 0.125, 1.5}}, &lift, everywhere);
+    gym_spawn(&gym, enf_v3(0.0, 0.25, 0.0));
+    assert_true(enf_world_swing(gym.world, id, 4.0));
+    bool squeezed = false;
+    for (int i = 0; i < 90 && !squeezed; i++) {
+        gym_go(&gym, wish(0.0, 0.0), 1);
+        squeezed = (gym.report.moved & ENF_MOVED_SQUEEZED) != 0;
+    }
+    assert_true(squeezed);
+    assert_int_equal(gym.report.squeezed_by, id.index);
+    assert_true(enf_world_swing(gym.world, id, 0.0));
+    gym_go(&gym, wish(0.0, 0.0), 120);
+    assert_int_equal(gym.report.moved & ENF_MOVED_SQUEEZED, 0);
+    gym_go(&gym, wish(1.0, 0.0), 90);
+    assert_true(gym.body.position.x > 2.0);
+    gym_close(&gym);
+}
+
+/* A wing turning at any speed pushes whoever stands in its way, and passes nobody. */
+static void test_door_pushes(void **state) {
+    (void)state;
+    static const double rates[] = {1.0, 4.0, 30.0, 90.0};
+    for (int i = 0; i < 4; i++) {
+        Gym gym;
+        gym_open(&gym);
+        gym_ready(&gym);
+        EnfMotion wing = swing(ENF_MOTION_HINGE, enf_v3(0, 0, 0), enf_v3(0, 1, 0), (double[]){0.0, 1.5}, rates[i]);
+        EnfObjectId id = gym_solid(&gym, (EnfBox3){{0.0, 0.0, -0.03125}, {1.25, 2.0, 0.03125}}, &wing, everywhere);
+        gym_spawn(&gym, enf_v3(0.75, 0.0, -0.5)); /* a positive turn takes +x to -z */
+        assert_true(enf_world_swing(gym.world, id, 1.5));
+        for (int t = 0; t < 120; t++) {
+            gym_go(&gym, wish(0.0, 0.0), 1);
+            assert_int_equal(gym.report.moved & ENF_MOVED_SQUEEZED, 0);
+            EnfCapsule capsule = enf_character_capsule(&gym.body);
+            assert_false(enf_collide_overlap(gym.collider, &capsule, gym.body.position, NULL));
+        }
+        assert_true(gym.body.position.x < 0.0); /* before the wing, on the far side */
+        assert_true(grounded(&gym));
+        gym_close(&gym);
+    }
+}
+
+/* Between a door and a wall: told who squeezes, never in the wall, and free to leave. */
+static void test_squeezed_at_a_wall(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_box(&gym, enf_v3(3.0, 0.0, -4.0), enf_v3(4.0, 4.0, 4.0));
+    gym_ready(&gym);
+    EnfMotion slab = swing(ENF_MOTION_SLIDE, enf_v3(0, 0, 0), enf_v3(1, 0, 0), (double[]){0.0, 2.75}, 2.0);
+    EnfObjectId id = gym_solid(&gym, (EnfBox3){{-0.125, 0.0, -1.0}, {0.125, 2.0, 1.0}}, &slab, everywhere);
+    gym_spawn(&gym, enf_v3(2.0, 0.0, 0.0));
+    assert_true(enf_world_swing(gym.world, id, 2.75));
+    gym_go(&gym, wish(0.0, 0.0), 120);
+    assert_true(gym.report.moved & ENF_MOVED_SQUEEZED);
+    assert_int_equal(gym.report.squeezed_by, id.index);
+    gym_go(&gym, wish(0.0, 1.0), 120); /* along the wall, out */
+    assert_true(gym.body.position.z > 1.3);
+    assert_int_equal(gym.report.moved & ENF_MOVED_SQUEEZED, 0);
+    gym_close(&gym);
+}
+
+/* On a train: rides with it, jumps and lands on it again; nothing of the ride is left when it stops. */
+static void test_train(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_ready(&gym);
+    EnfMotion train = swing(ENF_MOTION_SLIDE, enf_v3(-15, 0.25, 0), enf_v3(1, 0, 0), (double[]){0.0, 25.0}, 6.0);
+    EnfObjectId id = gym_solid(&gym, (EnfBox3){{-2, -0.25, -2}, {2, 0.25, 2}}, &train, everywhere);
+    gym_spawn(&gym, enf_v3(-15.0, 0.5, 0.0));
+    assert_true(enf_world_swing(gym.world, id, 25.0));
+    gym_go(&gym, wish(0.0, 0.0), 60);
+    double seat = gym.body.position.x - enf_world_pose(gym.world, id.index).position.x;
+    assert_near(seat, 0.0, 1e-6);
+    EnfCharacterInput input = wish(0.0, 0.0);
+    input.jump = true;
+    gym_go(&gym, input, 1);
+    gym_go(&gym, wish(0.0, 0.0), 59);
+    assert_int_equal(gym.body.ground_object, id.index);
+    assert_near(gym.body.position.x - enf_world_pose(gym.world, id.index).position.x, 0.0, 0.2);
+    gym_go(&gym, wish(0.0, 0.0), 300);
+    assert_near(gym.body.position.x - enf_world_pose(gym.world, id.index).position.x, 0.0, 0.3);
+    EnfCharacter before = gym.body;
+    gym_go(&gym, wish(0.0, 0.0), 1000);
+    assert_memory_equal(&before, &gym.body, sizeof before);
+    gym_close(&gym);
+}
+
+/* Put into a thing, or left in one by noclip: a way out is found. */
+static void test_way_out(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_box(&gym, enf_v3(-3.0, 0.0, -3.0), enf_v3(3.0, 3.0, 3.0));
+    gym_ready(&gym);
+    EnfTestRng rng = enf_test_rng(1);
+    for (int i = 0; i < 200; i++) {
+        gym_spawn(&gym, enf_v3(8.0, 0.0, 8.0));
+        EnfCharacterInput input = {{0.0, 0.0, 0.0}, false, false, false, ENF_CHARACTER_NOCLIP};
+        enf_character_move(&gym.body, gym.collider, &input, NULL);
+        double x = enf_test_double(&rng, -3.2, 3.2), y = enf_test_double(&rng, -1.0, 3.2), z = enf_test_double(&rng, -3.2, 3.2);
+        gym.body.position = enf_v3(x, y, z);
+        input.mode = ENF_CHARACTER_WALK;
+        for (int t = 0; t < 3; t++) {
+            enf_character_move(&gym.body, gym.collider, &input, &gym.report);
+        }
+        EnfCapsule capsule = enf_character_capsule(&gym.body);
+        assert_false(enf_collide_overlap(gym.collider, &capsule, gym.body.position, NULL));
+    }
+    gym_close(&gym);
+}
+
+/* Numbers that are none never get in. */
+static void test_hostile_numbers(void **state) {
+    (void)state;
+    Gym gym;
+    gym_open(&gym);
+    gym_ready(&gym);
+    gym_spawn(&gym, enf_v3(0.0, 0.0, 0.0));
+    EnfCapsule capsule = enf_character_capsule(&gym.body);
+    EnfSweepHit hit;
+    const double bad[] = {NAN, INFINITY, -INFINITY, 1e300};
+    for (int i = 0; i < 4; i++) {
+        assert_true(enf_collide_sweep(gym.collider, &capsule, gym.body.position, enf_v3(0.0, bad[i], 0.0), &hit));
+        assert_true(hit.t == 0.0);
+        EnfCharacterInput input = wish(bad[i], 0.0);
+        enf_character_move(&gym.body, gym.collider, &input, &gym.report);
+        gym.body.velocity.z = bad[i];
+        enf_character_move(&gym.body, gym.collider, &input, &gym.report);
+        assert_true(enf_v3_finite(gym.body.position) && enf_v3_finite(gym.body.velocity));
+    }
+    gym_close(&gym);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_walks_and_stops),
     cmocka_unit_test(test_steps),
@@ -326,6 +528,13 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_crouch),
     cmocka_unit_test(test_corners),
     cmocka_unit_test(test_wedge_between_slopes),
+    cmocka_unit_test(test_elevator),
+    cmocka_unit_test(test_elevator_squeezes),
+    cmocka_unit_test(test_door_pushes),
+    cmocka_unit_test(test_squeezed_at_a_wall),
+    cmocka_unit_test(test_train),
+    cmocka_unit_test(test_way_out),
+    cmocka_unit_test(test_hostile_numbers),
 };
 
 ENF_TEST_MAIN(tests)

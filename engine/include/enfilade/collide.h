@@ -6,7 +6,7 @@
  * What collides: clusters whose material is drawn and not blended (opaque or masked), or is NODRAW and CLIP; not what is marked
  * NOCOLLIDE. Portals never do, open or closed: a shut door stops a walker because its leaf does. Movers of the map with the SOLID
  * flag collide as the triangles of their mesh at their pose, or as the oriented box of it where the mesh has more than
- * ENF_SOLID_TRIANGLES_MAX. A capsule keeps ENF_TOL_SKIN from surfaces.
+ * ENF_SOLID_TRIANGLES_MAX, or is FREE (guards). A capsule keeps ENF_TOL_SKIN from surfaces.
  *
  * Threads: one collider a thread. Memory: create, add and reset may use the heap; sweeps and moves do not once warm (a larger
  * crowd of triangles than ever before grows a buffer; if that fails, the sweep is refused, as if it had hit at once). */
@@ -53,6 +53,9 @@ EnfResult enf_collider_add(EnfCollider *collider, const EnfSolidDef *def, uint32
 void enf_solid_box(EnfBox3 box, EnfVec3f corners[36]);
 /** Switches an object's collision (of all solids with that object): a thing picked up, a ghost. */
 void enf_collider_set_solid(EnfCollider *collider, uint32_t object, bool solid);
+/** Another box for all time, after enf_world_set_motion (empty: it roams from now on). The next move sorts them anew, with the
+ *  heap. */
+void enf_collider_set_bounds(EnfCollider *collider, uint32_t object, EnfBox3 bounds_ws);
 /** Is the object a solid that is switched on? */
 bool enf_collider_is_solid(const EnfCollider *collider, uint32_t object);
 
@@ -124,18 +127,20 @@ enum { ENF_CHARACTER_GROUNDED = 1, ENF_CHARACTER_CROUCHED = 2, ENF_CHARACTER_JUM
 /** The whole state of a body: plain data without padding, so that it can be copied, hashed and put back. */
 typedef struct EnfCharacter {
     EnfCharacterDef def;
-    EnfVec3 position;        /**< world: the feet */
-    EnfVec3 velocity;        /**< m/s; while grounded, its own, not that of what it stands on */
-    EnfVec3 ground_normal;   /**< unit, where grounded */
-    EnfVec3 good;            /**< the last place known to be free */
-    double height;           /**< of the capsule now: it crouches and stands up at a finite speed */
-    double lag;              /**< metres that the eye is still below where it belongs: a step taken a moment ago, smoothed */
-    uint32_t cell;           /**< of the eye, or ENF_NONE */
+    EnfVec3 position;      /**< world: the feet */
+    EnfVec3 velocity;      /**< m/s; while grounded, its own, not that of what it stands on */
+    EnfVec3 ground_normal; /**< unit, where grounded */
+    EnfVec3 good;          /**< the last place known to be free */
+    double height;         /**< of the capsule now: it crouches and stands up at a finite speed */
+    double lag;            /**< metres that the eye is still below where it belongs: a step taken a moment ago, smoothed */
+    uint32_t object; /**< of the world, that is this very body and so never in its way; set it after the spawn, or ENF_NONE */
+    uint32_t cell;   /**< of the eye, or ENF_NONE */
     uint32_t ground_object;  /**< in the world, or ENF_NONE */
     uint32_t ground_cluster; /**< of the map, or ENF_NONE: its material is what footsteps sound of */
     uint32_t mode;           /**< EnfCharacterMode */
     uint32_t flags;
     uint32_t still_ticks; /**< ticks in the air without getting anywhere: after some, it may walk as on the ground */
+    uint32_t reserved;
 } EnfCharacter;
 
 /** What a body is told for one tick. */
