@@ -19,11 +19,10 @@
 /** Places that one volume hangs on at most. Most hang on one; on several only what stays within the cells that it can walk to. */
 #define ENF_DBV_LINKS 5U
 
-/** A volume: 64 bytes, a cache line. Its box stands where it hangs. */
+/** A volume: no more than a cache line. Its box stands where it hangs. */
 typedef struct EnfDbvVolume {
     int64_t expiry_tick;
-    uint32_t wheel_next, wheel_previous;
-    uint32_t wheel_slot;    /**< ENF_NONE: not in the queue */
+    uint32_t wheel_at;      /**< where it stands in the queue: chunk * ENF_DBV_QUEUED + item; ENF_NONE: it is not in it */
     uint32_t period;        /**< ticks that it was made for */
     uint32_t bad_period;    /**< OPTIMAL: the shortest that was seen; 0: none yet */
     uint32_t exposed_frame; /**< the frame that exposed it last */
@@ -75,13 +74,22 @@ typedef struct EnfDbvPlaces {
     uint32_t *hot_frame; /**< a node or cell that is or holds a seen cell: the frame that saw it */
 } EnfDbvPlaces;
 
-/** The wheel: a slot a tick, 18 minutes a turn. */
-enum { ENF_DBV_SLOTS = 65536 };
+/** The wheel: a slot a tick, 18 minutes a turn; a slot is a chain of chunks, of which only the first has room. */
+enum { ENF_DBV_SLOTS = 65536, ENF_DBV_QUEUED = 6 };
+
+/** Objects of one slot: 32 bytes. */
+typedef struct EnfDbvChunk {
+    uint32_t next;
+    uint16_t slot, count;
+    uint32_t items[ENF_DBV_QUEUED];
+} EnfDbvChunk;
 
 typedef struct EnfDbvWheel {
     int64_t now; /**< everything due at or before it has been taken out */
     uint32_t heads[ENF_DBV_SLOTS];
     uint64_t occupied[ENF_DBV_SLOTS / 64];
+    EnfDbvChunk *chunks; /**< enough for every volume, however they are spread */
+    uint32_t capacity, used, free_head;
 } EnfDbvWheel;
 
 /** An object seen in this frame. */
@@ -181,6 +189,9 @@ void enf_dbv_hang_reach(EnfDbvIndex *index, uint32_t object, EnfBox3f volume, En
 
 /* wheel.c */
 void enf_dbv_wheel_create(EnfDbvWheel *wheel, int64_t now);
+void enf_dbv_wheel_destroy(EnfDbvWheel *wheel, const EnfAllocator *allocator);
+/** Room for `count` objects. False without memory. */
+bool enf_dbv_wheel_reserve(EnfDbvIndex *index, uint32_t count);
 void enf_dbv_wheel_add(EnfDbvIndex *index, uint32_t object);
 void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object);
 /** Takes out all that are due at or before `tick`, into index->due, in order of (expiry tick, object). False without memory. */
@@ -216,6 +227,8 @@ bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item); /**<
 /** Sorts numbers by `before`, in place, without heap or recursion (Shell sort, Ciura's gaps): for short lists. */
 typedef bool EnfDbvBefore(const EnfDbvIndex *index, uint32_t a, uint32_t b);
 void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *before);
+/** A larger copy of an array in place of the old one; false leaves all as it was. */
+bool enf_dbv_enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *capacity, uint32_t count, size_t size);
 bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count);
 bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count);
 

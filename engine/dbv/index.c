@@ -83,6 +83,7 @@ void enf_dbv_destroy(EnfDbvIndex *index) {
     enf_dbv_places_destroy(&index->places, index->allocator);
     enf_free(index->allocator, index->portal_boxes, (size_t)index->map->portals_count + 1, sizeof *index->portal_boxes);
     enf_dbv_pool_destroy(&index->pool, index->allocator);
+    enf_dbv_wheel_destroy(&index->wheel, index->allocator);
     enf_free(index->allocator, index->volumes, index->volume_capacity, sizeof *index->volumes);
     enf_free(index->allocator, index->exposures, index->exposure_capacity, sizeof *index->exposures);
     free_list(index, &index->due);
@@ -91,8 +92,7 @@ void enf_dbv_destroy(EnfDbvIndex *index) {
     enf_free(index->allocator, index, 1, sizeof *index);
 }
 
-/* A larger copy of an array in place of the old one; false leaves all as it was. */
-static bool enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *capacity, uint32_t count, size_t size) {
+bool enf_dbv_enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *capacity, uint32_t count, size_t size) {
     if (count <= *capacity) {
         return true;
     }
@@ -114,7 +114,7 @@ static bool enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *c
 
 bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item) {
     void *items = list->items;
-    if (!enlarge(index, &items, list->count, &list->capacity, list->count + 1, sizeof *list->items)) {
+    if (!enf_dbv_enlarge(index, &items, list->count, &list->capacity, list->count + 1, sizeof *list->items)) {
         return false;
     }
     list->items = items;
@@ -124,19 +124,23 @@ bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item) {
 
 bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count) {
     void *volumes = index->volumes;
-    if (!enlarge(index, &volumes, index->volume_count, &index->volume_capacity, count, sizeof *index->volumes)) {
+    if (!enf_dbv_enlarge(index, &volumes, index->volume_count, &index->volume_capacity, count, sizeof *index->volumes)) {
         return false;
     }
     index->volumes = volumes;
+    if (!enf_dbv_wheel_reserve(index, count)) {
+        return false;
+    }
     for (; index->volume_count < count; index->volume_count++) {
-        index->volumes[index->volume_count].wheel_slot = ENF_NONE;
+        index->volumes[index->volume_count].wheel_at = ENF_NONE;
     }
     return true;
 }
 
 bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
     void *exposures = index->exposures;
-    if (!enlarge(index, &exposures, index->exposure_count, &index->exposure_capacity, count, sizeof *index->exposures)) {
+    if (!enf_dbv_enlarge(index, &exposures, index->exposure_count, &index->exposure_capacity, count,
+                         sizeof *index->exposures)) {
         return false;
     }
     index->exposures = exposures;
@@ -186,7 +190,8 @@ bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume,
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
     size_t lists = index->due.capacity + index->drawn.capacity + index->candidates.capacity;
     size_t portals = index->portal_boxes == NULL ? 0 : (size_t)index->map->portals_count + 1;
-    return sizeof *index + portals * sizeof *index->portal_boxes + enf_dbv_pool_bytes(&index->pool) +
+    size_t queue = index->wheel.capacity * sizeof *index->wheel.chunks;
+    return sizeof *index + queue + portals * sizeof *index->portal_boxes + enf_dbv_pool_bytes(&index->pool) +
            index->volume_capacity * sizeof *index->volumes + lists * sizeof(uint32_t) +
            index->exposure_capacity * sizeof *index->exposures + enf_dbv_places_bytes(&index->places);
 }

@@ -196,7 +196,7 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     uint32_t period = choose(index, object, cause);
     if (!enf_dbv_keeps_off_seen(index) && cause == ENF_DBV_NEW) {
         period = first_share(period, object);
-    } else if (index->def.policy == ENF_DBV_ADAPTIVE || enf_dbv_keeps_off_seen(index)) {
+    } else if (index->def.policy != ENF_DBV_CONSTANT) {
         period = spread(period, object);
     }
     enf_dbv_wheel_remove(index, object);

@@ -11,7 +11,48 @@ enum { MASK = ENF_DBV_SLOTS - 1 };
 void enf_dbv_wheel_create(EnfDbvWheel *wheel, int64_t now) {
     memset(wheel->occupied, 0, sizeof wheel->occupied);
     memset(wheel->heads, 0xff, sizeof wheel->heads); /* ENF_NONE */
+    wheel->free_head = ENF_NONE;
     wheel->now = now;
+}
+
+void enf_dbv_wheel_destroy(EnfDbvWheel *wheel, const EnfAllocator *allocator) {
+    enf_free(allocator, wheel->chunks, wheel->capacity, sizeof *wheel->chunks);
+}
+
+bool enf_dbv_wheel_reserve(EnfDbvIndex *index, uint32_t count) {
+    EnfDbvWheel *wheel = &index->wheel;
+    uint32_t slots = count < ENF_DBV_SLOTS ? count : ENF_DBV_SLOTS; /* a chunk that is not full, each */
+    void *chunks = wheel->chunks;
+    if (!enf_dbv_enlarge(index, &chunks, wheel->used, &wheel->capacity, count / ENF_DBV_QUEUED + slots + 1,
+                         sizeof *wheel->chunks)) {
+        return false;
+    }
+    wheel->chunks = chunks;
+    return true;
+}
+
+/* An empty chunk at the head of a slot's chain. */
+static EnfDbvChunk *add_chunk(EnfDbvWheel *wheel, uint32_t slot) {
+    uint32_t number = wheel->free_head;
+    if (number != ENF_NONE) {
+        wheel->free_head = wheel->chunks[number].next;
+    } else {
+        ENF_ASSERT(wheel->used < wheel->capacity);
+        number = wheel->used++;
+    }
+    EnfDbvChunk *chunk = &wheel->chunks[number];
+    chunk->next = wheel->heads[slot];
+    chunk->slot = (uint16_t)slot;
+    chunk->count = 0;
+    wheel->heads[slot] = number;
+    return chunk;
+}
+
+static void drop_chunk(EnfDbvWheel *wheel, uint32_t slot) {
+    uint32_t number = wheel->heads[slot];
+    wheel->heads[slot] = wheel->chunks[number].next;
+    wheel->chunks[number].next = wheel->free_head;
+    wheel->free_head = number;
 }
 
 static uint32_t slot_of(const EnfDbvWheel *wheel, uint32_t object, int64_t tick) {
@@ -28,49 +69,55 @@ void enf_dbv_wheel_add(EnfDbvIndex *index, uint32_t object) {
     EnfDbvVolume *volume = &index->volumes[object];
     ENF_ASSERT(volume->expiry_tick > wheel->now);
     uint32_t slot = slot_of(wheel, object, volume->expiry_tick);
-    volume->wheel_slot = slot;
-    volume->wheel_previous = ENF_NONE;
-    volume->wheel_next = wheel->heads[slot];
-    if (volume->wheel_next != ENF_NONE) {
-        index->volumes[volume->wheel_next].wheel_previous = object;
-    }
-    wheel->heads[slot] = object;
+    uint32_t head = wheel->heads[slot];
+    EnfDbvChunk *chunk = head == ENF_NONE || wheel->chunks[head].count == ENF_DBV_QUEUED ? add_chunk(wheel, slot)
+                                                                                         : &wheel->chunks[head];
+    volume->wheel_at = wheel->heads[slot] * ENF_DBV_QUEUED + chunk->count;
+    chunk->items[chunk->count++] = object;
     wheel->occupied[slot / 64] |= UINT64_C(1) << slot % 64;
 }
 
 void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object) {
-    EnfDbvVolume *volume = &index->volumes[object];
-    uint32_t slot = volume->wheel_slot;
-    if (slot == ENF_NONE) {
+    EnfDbvWheel *wheel = &index->wheel;
+    uint32_t at = index->volumes[object].wheel_at;
+    if (at == ENF_NONE) {
         return;
     }
-    if (volume->wheel_next != ENF_NONE) {
-        index->volumes[volume->wheel_next].wheel_previous = volume->wheel_previous;
+    EnfDbvChunk *chunk = &wheel->chunks[at / ENF_DBV_QUEUED];
+    EnfDbvChunk *first = &wheel->chunks[wheel->heads[chunk->slot]];
+    uint32_t last = first->items[--first->count]; /* takes its place */
+    chunk->items[at % ENF_DBV_QUEUED] = last;
+    index->volumes[last].wheel_at = at;
+    index->volumes[object].wheel_at = ENF_NONE;
+    if (first->count == 0) {
+        drop_chunk(wheel, chunk->slot); /* an emptied slot's bit is cleared when its tick comes */
     }
-    if (volume->wheel_previous != ENF_NONE) {
-        index->volumes[volume->wheel_previous].wheel_next = volume->wheel_next;
-    } else {
-        index->wheel.heads[slot] = volume->wheel_next; /* an emptied slot's bit is cleared when its tick comes */
-    }
-    volume->wheel_slot = ENF_NONE;
 }
 
 /* Empties a slot: what is due goes to the list, the rest waits on. */
 static bool take_slot(EnfDbvIndex *index, uint32_t slot, int64_t tick) {
-    uint32_t object = index->wheel.heads[slot];
-    index->wheel.heads[slot] = ENF_NONE;
-    index->wheel.occupied[slot / 64] &= ~(UINT64_C(1) << slot % 64);
+    EnfDbvWheel *wheel = &index->wheel;
+    uint32_t number = wheel->heads[slot];
+    wheel->heads[slot] = ENF_NONE;
+    wheel->occupied[slot / 64] &= ~(UINT64_C(1) << slot % 64);
     bool ok = true;
-    while (object != ENF_NONE) {
-        EnfDbvVolume *volume = &index->volumes[object];
-        uint32_t next = volume->wheel_next;
-        volume->wheel_slot = ENF_NONE;
-        if (volume->expiry_tick > tick) {
-            enf_dbv_wheel_add(index, object);
-        } else {
-            ok = enf_dbv_list_add(index, &index->due, object) && ok;
+    while (number != ENF_NONE) {
+        EnfDbvChunk chunk = wheel->chunks[number];
+        wheel->chunks[number].next = wheel->free_head;
+        wheel->free_head = number;
+        for (uint32_t i = 0; i < chunk.count; i++) {
+            enf_dbv_prefetch(&index->volumes[chunk.items[i]]);
         }
-        object = next;
+        for (uint32_t i = 0; i < chunk.count; i++) {
+            EnfDbvVolume *volume = &index->volumes[chunk.items[i]];
+            volume->wheel_at = ENF_NONE;
+            if (volume->expiry_tick > tick) {
+                enf_dbv_wheel_add(index, chunk.items[i]);
+            } else {
+                ok = enf_dbv_list_add(index, &index->due, chunk.items[i]) && ok;
+            }
+        }
+        number = chunk.next;
     }
     return ok;
 }
@@ -95,30 +142,24 @@ static bool earlier(const EnfDbvIndex *index, uint32_t a, uint32_t b) {
     return x != y ? x < y : a < b;
 }
 
-/* More than a turn has passed: every slot's time has come. */
+/* More than a turn has passed: every slot's time has come. Chunks are taken from the slots first, as those who wait on may choose any
+ * slot. */
 static bool take_all(EnfDbvIndex *index, int64_t tick) {
+    EnfDbvWheel *wheel = &index->wheel;
     bool ok = true;
-    index->wheel.now = tick;
-    uint32_t waiting = ENF_NONE; /* chained by wheel_next while the slots are emptied */
+    wheel->now = tick;
+    uint32_t taken = ENF_NONE;
     for (uint32_t slot = 0; slot < ENF_DBV_SLOTS; slot++) {
-        while (index->wheel.heads[slot] != ENF_NONE) {
-            uint32_t object = index->wheel.heads[slot];
-            EnfDbvVolume *volume = &index->volumes[object];
-            enf_dbv_wheel_remove(index, object);
-            if (volume->expiry_tick > tick) {
-                volume->wheel_next = waiting;
-                waiting = object;
-            } else {
-                ok = enf_dbv_list_add(index, &index->due, object) && ok;
-            }
+        while (wheel->heads[slot] != ENF_NONE) {
+            uint32_t number = wheel->heads[slot];
+            wheel->heads[slot] = wheel->chunks[number].next;
+            wheel->chunks[number].next = taken;
+            taken = number;
         }
     }
-    while (waiting != ENF_NONE) {
-        uint32_t object = waiting;
-        waiting = index->volumes[object].wheel_next;
-        enf_dbv_wheel_add(index, object);
-    }
-    return ok;
+    memset(wheel->occupied, 0, sizeof wheel->occupied);
+    wheel->heads[0] = taken; /* one chain of all, emptied as any other */
+    return take_slot(index, 0, tick) && ok;
 }
 
 bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick) {

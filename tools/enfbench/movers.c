@@ -10,12 +10,17 @@
 
 /* ---- motions ---------------------------------------------------------------------------------------------------- */
 
-/* Where on the way there and back, 0 to 3, a unit between two points. */
-static double way(const Mover *mover, int64_t tick) {
+/* Ticks since it set out there and back. */
+static uint32_t on_cycle(const Mover *mover, int64_t tick) {
     uint32_t cycle = 2 * mover->period;
     uint64_t since = (uint64_t)tick + mover->phase;
-    uint32_t at = since <= UINT32_MAX ? (uint32_t)since % cycle : (uint32_t)(since % cycle); /* the short division is fast */
-    at = at > mover->period ? cycle - at : at;
+    return since <= UINT32_MAX ? (uint32_t)since % cycle : (uint32_t)(since % cycle); /* the short division is fast */
+}
+
+/* Where on the way there and back, 0 to 3, a unit between two points. */
+static double way(const Mover *mover, int64_t tick) {
+    uint32_t at = on_cycle(mover, tick);
+    at = at > mover->period ? 2 * mover->period - at : at;
     return 3.0 * ((double)at / (double)mover->period);
 }
 
@@ -59,6 +64,19 @@ EnfVec3 bench_mover_at(const Mover *mover, int64_t tick) {
     EnfVec3 slope;
     double s = way(mover, tick);
     return is_smooth(mover) ? smooth_at(mover, s, &slope) : straight_at(mover, s);
+}
+
+EnfVec3 bench_mover_step(const Mover *mover, int64_t tick, double *ticks) {
+    uint32_t at = on_cycle(mover, tick);
+    bool back = at >= mover->period;
+    double leg = (double)mover->period / 3.0;
+    double gone = (double)(back ? at - mover->period : at) / leg; /* from this end, 0 to 3 */
+    int k = gone >= 2.0 ? 2 : (int)gone;
+    *ticks = floor(((double)(k + 1) - gone) * leg);
+    const float *a = mover->points[back ? 3 - k : k];
+    const float *b = mover->points[back ? 2 - k : k + 1];
+    return enf_v3(((double)b[0] - (double)a[0]) / leg, ((double)b[1] - (double)a[1]) / leg,
+                  ((double)b[2] - (double)a[2]) / leg);
 }
 
 /* Thirty joints in a chain, each swinging: what a walking character costs. Answers a length, so that it must be worked out. */

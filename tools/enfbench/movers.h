@@ -45,6 +45,8 @@ typedef struct Mover {
 #define MOVER_REACH 0.4375
 
 EnfVec3 bench_mover_at(const Mover *mover, int64_t tick);
+/** Of a straight way: the step from `tick` to the next, and how many ticks it is that long. */
+EnfVec3 bench_mover_step(const Mover *mover, int64_t tick, double *ticks);
 /** Position and turn, and the joints of a character; `user` is the Mover. */
 EnfPose bench_mover_state(const void *mover, int64_t tick);
 EnfBox3 bench_mover_bound(const void *user, const EnfBox3 *local, int64_t tick0, int64_t tick1);
@@ -85,7 +87,7 @@ bool bench_movers_shown(const MoversScene *scene, const MoversWindows *windows, 
 typedef struct Rival Rival;
 Rival *bench_rival_create(const MoversScene *scene, bool sweep);
 void bench_rival_destroy(Rival *rival);
-/** Every motion evaluated; the objects that the windows show, ascending. `flat` bins them by cell and looks into the seen cells;
+/** Every motion evaluated; the objects that the windows show, ascending. `flat` keeps a list a cell and looks into those of seen cells;
  *  `sweep` tests all boxes against the picture, eight at a time, and what is left against the windows. */
 const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const MoversWindows *windows, int64_t tick,
                                   uint32_t *count);

@@ -1,6 +1,8 @@
-/* The plain ways to find moving objects: evaluate every motion in every frame, and then look at arrays. No tree, no volume, no
- * memory of the last frame. A cheap box that may be a little too large decides first; the object's own box decides what is shown,
- * so the answer is the same as everyone's. */
+/* The plain ways to find moving objects: move every one in every frame, and then look at arrays. No tree, no volume, no memory of
+ * what was seen. They are tuned, for only then is the comparison worth anything: positions and steps stand in arrays of floats,
+ * moved eight at a time; an object changes its room's list only when it changes its room; a sweep tests middles against planes
+ * that were moved out by an object's size. These cheap positions may be a little wrong; the object's own box decides what is
+ * shown, so the answer is the same as everyone's. */
 #include "enfbench/movers.h"
 #include "simd/simd.h"
 
@@ -8,34 +10,55 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Half the width of a cheap box: a little more than the object's, for what single precision rounds. */
-#define CHEAP (MOVER_REACH + 0.0625)
+/* Half the size of a cheap box: a little more than the object's, for what single precision and STRIDE steps round. */
+#define CHEAP_WIDTH (MOVER_REACH + 0.0625)
+#define CHEAP_HEIGHT (MOVER_HEIGHT + 0.0625)
+/* Steps that are added up at most before a position is worked out anew. */
+enum { STRIDE = 256, LANES = 8 };
 
 struct Rival {
     const MoversScene *scene;
     bool sweep;
     int64_t tick;
-    EnfVec3f *places;          /* flat: where an object is */
-    EnfKdBlock *blocks;        /* sweep: the cheap boxes */
-    uint32_t *cells, *sorted;  /* flat: the cell of an object; objects by cell */
-    uint32_t *starts;          /* flat: where a cell's objects begin, cell_count + 1 */
-    uint32_t *seen, *rejected; /* frame stamps: a cell is seen; an object has been asked about */
-    uint32_t *found;
-    uint32_t block_count, cell_count, frame;
+    float *x, *y, *z, *dx, *dy, *dz;        /* positions, steps a tick */
+    int32_t *until;                         /* the last tick to which steps lead */
+    uint32_t *cells, *next, *before;        /* flat: the room of an object, and its neighbours in the room's list */
+    uint32_t *heads;                        /* flat: a room's list */
+    uint32_t *near;                         /* sweep: the frame in which a room was seen or next to one */
+    uint32_t *asked, *found;                /* the frame in which an object was asked about; the answer */
+    uint32_t count, cell_count, frame;      /* count: objects, rounded up to whole blocks */
+    float origin_x, origin_z, per_x, per_z; /* rooms a metre */
 };
 
 void bench_rival_destroy(Rival *rival) {
     if (rival != NULL) {
-        free(rival->places);
-        free(rival->blocks);
-        free(rival->cells);
-        free(rival->sorted);
-        free(rival->starts);
-        free(rival->seen);
-        free(rival->rejected);
-        free(rival->found);
+        void *arrays[] = {rival->x,     rival->y,    rival->z,      rival->dx,    rival->dy,   rival->dz,    rival->until,
+                          rival->cells, rival->next, rival->before, rival->heads, rival->near, rival->asked, rival->found};
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+            free(arrays[i]);
+        }
         free(rival);
     }
+}
+
+static bool allocate(Rival *rival) {
+    size_t count = rival->count + 1U;
+    size_t cells = rival->cell_count + 1U;
+    float **floats[] = {&rival->x, &rival->y, &rival->z, &rival->dx, &rival->dy, &rival->dz};
+    uint32_t **numbers[] = {&rival->cells, &rival->next, &rival->before, &rival->asked, &rival->found};
+    bool ok = true;
+    for (size_t i = 0; i < sizeof floats / sizeof *floats; i++) {
+        *floats[i] = calloc(count, sizeof(float));
+        ok = ok && *floats[i] != NULL;
+    }
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        *numbers[i] = calloc(count, sizeof(uint32_t));
+        ok = ok && *numbers[i] != NULL;
+    }
+    rival->until = calloc(count, sizeof *rival->until);
+    rival->heads = calloc(cells, sizeof *rival->heads);
+    rival->near = calloc(cells, sizeof *rival->near);
+    return ok && rival->until && rival->heads && rival->near;
 }
 
 Rival *bench_rival_create(const MoversScene *scene, bool sweep) {
@@ -43,57 +66,91 @@ Rival *bench_rival_create(const MoversScene *scene, bool sweep) {
     if (rival == NULL) {
         return NULL;
     }
-    uint32_t count = scene->def.movers;
+    const EnfRoomsDef *d = &scene->rooms.def;
     rival->scene = scene;
     rival->sweep = sweep;
-    rival->block_count = (count + ENF_KD_BLOCK - 1) / ENF_KD_BLOCK;
-    rival->cell_count = scene->rooms.def.nx * scene->rooms.def.nz;
-    rival->places = calloc(count + 1U, sizeof *rival->places);
-    rival->blocks = calloc(rival->block_count + 1U, sizeof *rival->blocks);
-    rival->cells = calloc(count + 1U, sizeof *rival->cells);
-    rival->sorted = calloc(count + 1U, sizeof *rival->sorted);
-    rival->starts = calloc(rival->cell_count + 2U, sizeof *rival->starts);
-    rival->seen = calloc(rival->cell_count + 1U, sizeof *rival->seen);
-    rival->rejected = calloc(count + 1U, sizeof *rival->rejected);
-    rival->found = calloc(count + 1U, sizeof *rival->found);
-    bool ok = rival->places && rival->blocks && rival->cells && rival->sorted && rival->starts && rival->seen &&
-              rival->rejected && rival->found;
-    if (!ok) {
+    rival->tick = -2; /* nothing is worked out yet */
+    rival->count = (scene->def.movers + LANES - 1) / LANES * LANES;
+    rival->cell_count = d->nx * d->nz;
+    rival->origin_x = (float)d->origin.x;
+    rival->origin_z = (float)d->origin.z;
+    rival->per_x = (float)(1.0 / d->room.x);
+    rival->per_z = (float)(1.0 / d->room.z);
+    if (!allocate(rival)) {
         bench_rival_destroy(rival);
         return NULL;
     }
-    for (uint32_t b = 0; b < rival->block_count; b++) {
-        memset(rival->blocks[b].item, 0xff, sizeof rival->blocks[b].item);
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        rival->blocks[i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK] = i;
+    memset(rival->cells, 0xff, rival->count * sizeof *rival->cells); /* ENF_NONE */
+    memset(rival->heads, 0xff, rival->cell_count * sizeof *rival->heads);
+    for (uint32_t i = scene->def.movers; i < rival->count; i++) {
+        rival->until[i] = INT32_MAX; /* lanes beyond the last object stay at the origin, in no list */
     }
     return rival;
 }
 
-static EnfVec3f single(EnfVec3 p) {
-    EnfVec3f out = {(float)p.x, (float)p.y, (float)p.z};
-    return out;
+/* ---- motion ----------------------------------------------------------------------------------------------------- */
+
+static void set_position(Rival *rival, uint32_t object, EnfVec3 p) {
+    rival->x[object] = (float)p.x;
+    rival->y[object] = (float)p.y;
+    rival->z[object] = (float)p.z;
+}
+
+/* Where a straight way is at `tick`, and the step that leads on to its next corner. */
+static void start_leg(Rival *rival, uint32_t object, int64_t tick) {
+    const Mover *mover = &rival->scene->movers[object];
+    double left = 0.0;
+    EnfVec3 step = bench_mover_step(mover, tick, &left);
+    set_position(rival, object, bench_mover_at(mover, tick));
+    rival->dx[object] = (float)step.x;
+    rival->dy[object] = (float)step.y;
+    rival->dz[object] = (float)step.z;
+    rival->until[object] = (int32_t)tick + (int32_t)(left < STRIDE ? left : STRIDE);
+}
+
+/* A step of eight; true if one of them is beyond its leg. */
+static bool step_block(Rival *rival, uint32_t first, int32_t tick) {
+    int32_t late = 0;
+    for (uint32_t i = first; i < first + LANES; i++) {
+        rival->x[i] += rival->dx[i];
+        rival->y[i] += rival->dy[i];
+        rival->z[i] += rival->dz[i];
+        late |= rival->until[i] < tick;
+    }
+    return late != 0;
 }
 
 /* Where a motion costs something it is worked out whole; a straight way has nothing but a position. */
-static EnfVec3 evaluate(const Mover *mover, int64_t tick) {
-    bool plain = (mover->motion == MOVERS_FREE || mover->motion == MOVERS_LINEAR) && mover->polygons == 0;
-    return plain ? bench_mover_at(mover, tick) : bench_mover_state(mover, tick).position;
+static bool is_plain(const MoversDef *def) {
+    return (def->motion == MOVERS_FREE || def->motion == MOVERS_LINEAR) && def->polygons == 0;
 }
 
-static uint32_t cell_at(const Rival *rival, double x, double z) {
-    const EnfRoomsDef *d = &rival->scene->rooms.def;
-    double ix = (x - d->origin.x) / d->room.x;
-    double iz = (z - d->origin.z) / d->room.z;
-    uint32_t cx = ix < 0.0 ? 0U : ix >= (double)d->nx ? d->nx - 1 : (uint32_t)ix;
-    uint32_t cz = iz < 0.0 ? 0U : iz >= (double)d->nz ? d->nz - 1 : (uint32_t)iz;
-    return cz * d->nx + cx;
+static void move_all(Rival *rival, int64_t tick) {
+    const MoversScene *scene = rival->scene;
+    uint32_t movers = scene->def.movers;
+    bool plain = is_plain(&scene->def);
+    bool follows = rival->tick + 1 == tick;
+    rival->tick = tick;
+    for (uint32_t i = 0; i < movers && !plain; i++) {
+        set_position(rival, i, bench_mover_state(&scene->movers[i], tick).position);
+    }
+    for (uint32_t b = 0; b < rival->count && plain; b += LANES) {
+        if (follows && !step_block(rival, b, (int32_t)tick)) {
+            continue;
+        }
+        for (uint32_t i = b; i < b + LANES && i < movers; i++) {
+            if (!follows || rival->until[i] < tick) {
+                start_leg(rival, i, tick);
+            }
+        }
+    }
 }
+
+/* ---- what is shown ---------------------------------------------------------------------------------------------- */
 
 static void look_at(Rival *rival, const MoversWindows *windows, uint32_t object, uint32_t *count) {
-    if (rival->rejected[object] != rival->frame) {
-        rival->rejected[object] = rival->frame;
+    if (rival->asked[object] != rival->frame) {
+        rival->asked[object] = rival->frame;
         EnfPose pose = bench_mover_state(&rival->scene->movers[object], rival->tick);
         if (bench_movers_shown(rival->scene, windows, bench_mover_box(&pose))) {
             rival->found[(*count)++] = object;
@@ -101,103 +158,163 @@ static void look_at(Rival *rival, const MoversWindows *windows, uint32_t object,
     }
 }
 
+static inline uint32_t cell_at(const Rival *rival, float x, float z) {
+    const EnfRoomsDef *d = &rival->scene->rooms.def;
+    int32_t ix = (int32_t)((x - rival->origin_x) * rival->per_x); /* what lies before the origin is in the first room */
+    int32_t iz = (int32_t)((z - rival->origin_z) * rival->per_z);
+    int32_t mx = (int32_t)d->nx - 1;
+    int32_t mz = (int32_t)d->nz - 1;
+    ix = ix < 0 ? 0 : ix > mx ? mx : ix;
+    iz = iz < 0 ? 0 : iz > mz ? mz : iz;
+    return (uint32_t)iz * d->nx + (uint32_t)ix;
+}
+
+/* The rooms around a seen one, and itself: who stands in one may reach into the other. */
+typedef struct Around {
+    uint32_t x0, x1, z0, z1;
+} Around;
+
+static Around around(const Rival *rival, uint32_t cell) {
+    const EnfRoomsDef *d = &rival->scene->rooms.def;
+    uint32_t x = cell % d->nx;
+    uint32_t z = cell / d->nx;
+    Around out = {x > 0 ? x - 1 : 0, x + 1 < d->nx ? x + 1 : x, z > 0 ? z - 1 : 0, z + 1 < d->nz ? z + 1 : z};
+    return out;
+}
+
 /* ---- flat ------------------------------------------------------------------------------------------------------- */
 
-/* A counting sort by the cell of the middle. */
+static void change_room(Rival *rival, uint32_t object, uint32_t cell) {
+    uint32_t next = rival->next[object];
+    uint32_t before = rival->before[object];
+    uint32_t old = rival->cells[object];
+    if (old != ENF_NONE) {
+        if (next != ENF_NONE) {
+            rival->before[next] = before;
+        }
+        if (before != ENF_NONE) {
+            rival->next[before] = next;
+        } else {
+            rival->heads[old] = next;
+        }
+    }
+    rival->cells[object] = cell;
+    rival->before[object] = ENF_NONE;
+    rival->next[object] = rival->heads[cell];
+    if (rival->heads[cell] != ENF_NONE) {
+        rival->before[rival->heads[cell]] = object;
+    }
+    rival->heads[cell] = object;
+}
+
 static void bin(Rival *rival) {
-    uint32_t count = rival->scene->def.movers;
-    memset(rival->starts, 0, (rival->cell_count + 1) * sizeof *rival->starts);
-    for (uint32_t i = 0; i < count; i++) {
-        const EnfVec3f *p = &rival->places[i];
-        rival->cells[i] = cell_at(rival, (double)p->x, (double)p->z);
-        rival->starts[rival->cells[i] + 1]++;
-    }
-    for (uint32_t c = 0; c < rival->cell_count; c++) {
-        rival->starts[c + 1] += rival->starts[c];
-    }
-    for (uint32_t i = count; i > 0; i--) { /* fills each cell from its end, so that starts[] ends where it was */
-        rival->sorted[--rival->starts[rival->cells[i - 1] + 1]] = i - 1;
+    uint32_t movers = rival->scene->def.movers;
+    for (uint32_t b = 0; b < rival->count; b += LANES) {
+        uint32_t cells[LANES];
+        uint32_t changed = 0;
+        for (uint32_t k = 0; k < LANES; k++) {
+            cells[k] = cell_at(rival, rival->x[b + k], rival->z[b + k]);
+            changed |= cells[k] ^ rival->cells[b + k];
+        }
+        for (uint32_t k = 0; k < LANES && changed != 0 && b + k < movers; k++) {
+            if (cells[k] != rival->cells[b + k]) {
+                change_room(rival, b + k, cells[k]);
+            }
+        }
     }
 }
 
-/* A seen cell and its neighbours: who stands in one may reach into the other. After `bin`, starts[c + 1] is where c begins. */
 static void look_into(Rival *rival, const MoversWindow *window, const MoversWindows *windows, uint32_t *count) {
-    const EnfRoomsDef *d = &rival->scene->rooms.def;
-    uint32_t cx = window->cell % d->nx;
-    uint32_t cz = window->cell / d->nx;
-    uint32_t z1 = cz + 1 < d->nz ? cz + 1 : cz;
-    uint32_t x1 = cx + 1 < d->nx ? cx + 1 : cx;
+    Around rooms = around(rival, window->cell);
     EnfBox3 room = enf_rooms_box(&rival->scene->rooms, window->cell);
-    for (uint32_t z = cz > 0 ? cz - 1 : 0; z <= z1; z++) {
-        for (uint32_t x = cx > 0 ? cx - 1 : 0; x <= x1; x++) {
-            uint32_t cell = z * d->nx + x;
-            uint32_t end = cell + 1 < rival->cell_count ? rival->starts[cell + 2] : rival->scene->def.movers;
-            for (uint32_t k = rival->starts[cell + 1]; k < end; k++) {
-                EnfVec3 p = enf_v3_from_f(rival->places[rival->sorted[k]]);
-                bool near = p.x > room.min.x - CHEAP && p.x < room.max.x + CHEAP && p.z > room.min.z - CHEAP &&
-                            p.z < room.max.z + CHEAP;
-                if (near) {
-                    look_at(rival, windows, rival->sorted[k], count);
+    for (uint32_t z = rooms.z0; z <= rooms.z1; z++) {
+        for (uint32_t x = rooms.x0; x <= rooms.x1; x++) {
+            uint32_t i = rival->heads[z * rival->scene->rooms.def.nx + x];
+            for (; i != ENF_NONE; i = rival->next[i]) {
+                double px = (double)rival->x[i];
+                double pz = (double)rival->z[i];
+                if (px > room.min.x - CHEAP_WIDTH && px < room.max.x + CHEAP_WIDTH && pz > room.min.z - CHEAP_WIDTH &&
+                    pz < room.max.z + CHEAP_WIDTH) {
+                    look_at(rival, windows, i, count);
                 }
             }
         }
     }
 }
 
-static void evaluate_flat(Rival *rival, int64_t tick) {
-    for (uint32_t i = 0; i < rival->scene->def.movers; i++) {
-        rival->places[i] = single(evaluate(&rival->scene->movers[i], tick));
-    }
-    bin(rival);
-}
-
 /* ---- sweep ------------------------------------------------------------------------------------------------------ */
 
-static void evaluate_sweep(Rival *rival, int64_t tick) {
-    const float w = (float)CHEAP;
-    const float h = (float)(MOVER_HEIGHT + 0.0625);
-    for (uint32_t i = 0; i < rival->scene->def.movers; i++) {
-        EnfVec3f p = single(evaluate(&rival->scene->movers[i], tick));
-        EnfKdBlock *block = &rival->blocks[i / ENF_KD_BLOCK];
-        uint32_t lane = i % ENF_KD_BLOCK;
-        block->min_x[lane] = p.x - w;
-        block->min_y[lane] = p.y - h;
-        block->min_z[lane] = p.z - w;
-        block->max_x[lane] = p.x + w;
-        block->max_y[lane] = p.y + h;
-        block->max_z[lane] = p.z + w;
+/* The picture's planes, moved out by the size of a cheap box. */
+static EnfPyramid picture(const Rival *rival, const EnfView *view) {
+    const EnfRooms *rooms = &rival->scene->rooms;
+    EnfBox3 all = enf_box3_union(enf_rooms_box(rooms, 0), enf_rooms_box(rooms, rooms->map->cells_count - 1));
+    EnfPyramid planes;
+    enf_pyramid(&view->camera, enf_window_full(&view->camera), NULL, enf_v3(0.0, 0.0, 0.0), enf_box3f_outward(all), &planes);
+    for (uint32_t p = 0; p < planes.count; p++) {
+        double out = (fabs((double)planes.nx[p]) + fabs((double)planes.nz[p])) * CHEAP_WIDTH;
+        planes.d[p] += (float)(out + fabs((double)planes.ny[p]) * CHEAP_HEIGHT);
     }
+    return planes;
 }
 
-/* Could a box touch a seen cell? The cells of its corners. */
-static bool near_seen(const Rival *rival, const EnfKdBlock *block, uint32_t lane) {
-    double x0 = (double)block->min_x[lane];
-    double x1 = (double)block->max_x[lane];
-    double z0 = (double)block->min_z[lane];
-    double z1 = (double)block->max_z[lane];
-    return rival->seen[cell_at(rival, x0, z0)] == rival->frame || rival->seen[cell_at(rival, x1, z0)] == rival->frame ||
-           rival->seen[cell_at(rival, x0, z1)] == rival->frame || rival->seen[cell_at(rival, x1, z1)] == rival->frame;
+/* The lanes of a block whose middles are behind no plane. */
+static inline uint32_t inside(const float *restrict x, const float *restrict y, const float *restrict z,
+                              const EnfPyramid *planes) {
+    uint32_t in[LANES];
+    for (uint32_t k = 0; k < LANES; k++) {
+        in[k] = 1U << k;
+    }
+    for (uint32_t p = 0; p < planes->count; p++) {
+        float nx = planes->nx[p], ny = planes->ny[p], nz = planes->nz[p], d = planes->d[p];
+        for (uint32_t k = 0; k < LANES; k++) {
+            in[k] = nx * x[k] + ny * y[k] + nz * z[k] + d >= 0.0F ? in[k] : 0U;
+        }
+    }
+    uint32_t mask = 0;
+    for (uint32_t k = 0; k < LANES; k++) {
+        mask |= in[k];
+    }
+    return mask;
 }
+
+static inline uint32_t sweep_all(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < rival->count; b += LANES) {
+        uint32_t mask = inside(rival->x + b, rival->y + b, rival->z + b, planes);
+        for (; mask != 0; mask &= mask - 1) {
+            kept[count++] = b + enf_simd_lowest(mask);
+        }
+    }
+    return count;
+}
+
+/* The same loop for a processor that has AVX2. */
+#if defined(__GNUC__) && defined(__x86_64__)
+__attribute__((target("avx2"), flatten)) static uint32_t sweep_wide(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
+    return sweep_all(rival, planes, kept);
+}
+#else
+static uint32_t sweep_wide(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
+    return sweep_all(rival, planes, kept);
+}
+#endif
 
 static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindows *windows, uint32_t *count) {
-    const EnfSimd *simd = enf_simd();
-    const EnfMap *map = rival->scene->rooms.map;
-    EnfBox3 all = enf_box3_union(enf_rooms_box(&rival->scene->rooms, 0),
-                                 enf_rooms_box(&rival->scene->rooms, map->cells_count - 1));
-    EnfPyramid pyramid;
-    EnfSimdPlanes planes;
-    enf_pyramid(&view->camera, enf_window_full(&view->camera), NULL, enf_v3(0.0, 0.0, 0.0), enf_box3f_outward(all), &pyramid);
-    enf_simd_planes(&planes, &pyramid);
+    EnfPyramid planes = picture(rival, view);
     for (uint32_t i = 0; i < windows->count; i++) {
-        rival->seen[windows->items[i].cell] = rival->frame;
-    }
-    for (uint32_t b = 0; b < rival->block_count; b++) {
-        uint32_t mask = simd->boxes(&planes, rival->blocks[b].min_x, planes.all) & 0xff;
-        for (; mask != 0; mask &= mask - 1) {
-            uint32_t lane = enf_simd_lowest(mask);
-            if (near_seen(rival, &rival->blocks[b], lane)) {
-                look_at(rival, windows, b * ENF_KD_BLOCK + lane, count);
+        Around rooms = around(rival, windows->items[i].cell);
+        for (uint32_t z = rooms.z0; z <= rooms.z1; z++) {
+            for (uint32_t x = rooms.x0; x <= rooms.x1; x++) {
+                rival->near[z * rival->scene->rooms.def.nx + x] = rival->frame;
             }
+        }
+    }
+    uint32_t *kept = rival->cells; /* flat's */
+    uint32_t kept_count = enf_simd_avx2() != NULL ? sweep_wide(rival, &planes, kept) : sweep_all(rival, &planes, kept);
+    for (uint32_t k = 0; k < kept_count && kept[k] < rival->scene->def.movers; k++) {
+        uint32_t cell = cell_at(rival, rival->x[kept[k]], rival->z[kept[k]]);
+        if (rival->near[cell] == rival->frame) {
+            look_at(rival, windows, kept[k], count);
         }
     }
 }
@@ -213,14 +330,13 @@ static int ascending(const void *a, const void *b) {
 const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const MoversWindows *windows, int64_t tick,
                                   uint32_t *count) {
     rival->frame++;
-    rival->tick = tick;
     *count = 0;
+    move_all(rival, tick);
     if (rival->sweep) {
-        evaluate_sweep(rival, tick);
         look_everywhere(rival, view, windows, count);
         return rival->found; /* in order already */
     }
-    evaluate_flat(rival, tick);
+    bin(rival);
     for (uint32_t i = 0; i < windows->count; i++) {
         look_into(rival, &windows->items[i], windows, count);
     }
