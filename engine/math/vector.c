@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* ---- vectors ---------------------------------------------------------------------------------------------------- */
 
@@ -82,6 +83,15 @@ bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b) {
 
 /* ---- rounding outward ------------------------------------------------------------------------------------------- */
 
+/* The next float below a finite one: as nextafterf(x, -FLT_MAX), without a call. */
+static inline float below(float x) {
+    uint32_t bits = 0;
+    memcpy(&bits, &x, sizeof bits);
+    bits = x > 0.0F ? bits - 1 : x < 0.0F ? bits + 1 : UINT32_C(0x80000001);
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
 /* What is not a number goes to the far end: a box of it contains everything, and nothing is hidden. */
 float enf_round_down(double value) {
     if (!(value >= (double)-FLT_MAX)) {
@@ -91,7 +101,7 @@ float enf_round_down(double value) {
         return FLT_MAX;
     }
     float nearest = (float)value;
-    return (double)nearest > value ? nextafterf(nearest, -FLT_MAX) : nearest;
+    return (double)nearest > value ? below(nearest) : nearest;
 }
 
 float enf_round_up(double value) {

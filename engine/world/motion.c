@@ -179,7 +179,7 @@ static EnfBox3 cube(double radius) {
 /* Box sum, widened outward by the error of what made it. */
 static EnfBox3 swept(EnfBox3 position, EnfBox3 extent, double error) {
     EnfBox3 out = {enf_add(position.min, extent.min), enf_add(position.max, extent.max)};
-    double size = fmax(farthest(&position), 0.0) + farthest(&extent);
+    double size = larger(farthest(&position), 0.0) + farthest(&extent);
     EnfVec3 margin = enf_v3(error * size, error * size, error * size);
     out.min = enf_sub(out.min, margin);
     out.max = enf_add(out.max, margin);

@@ -16,6 +16,40 @@
 /* Steps that are added up at most before a position is worked out anew. */
 enum { STRIDE = 256, LANES = 8 };
 
+/* A loop over all objects, and the same compiled for AVX2; WIDE names what chooses between them. */
+#if defined(__GNUC__) && defined(__x86_64__)
+#define ENF_WIDE_INLINE inline __attribute__((always_inline))
+#define WIDE(type, name, parameters, arguments)                                                                                \
+    __attribute__((target("avx2"))) static type avx2_##name parameters {                                                       \
+        return name arguments;                                                                                                 \
+    }                                                                                                                          \
+    static type wide_##name parameters {                                                                                       \
+        return enf_simd_avx2() != NULL ? avx2_##name arguments : name arguments;                                               \
+    }
+#else
+#define ENF_WIDE_INLINE inline
+#define WIDE(type, name, parameters, arguments)                                                                                \
+    static type wide_##name parameters {                                                                                       \
+        return name arguments;                                                                                                 \
+    }
+#endif
+
+/* Eight numbers at once, as gcc and clang write it. */
+typedef float Float8 __attribute__((vector_size(32)));
+typedef int32_t Whole8 __attribute__((vector_size(32)));
+typedef int64_t Long4 __attribute__((vector_size(32)));
+
+static ENF_WIDE_INLINE void add_eight(float *to, const float *step) {
+    Float8 a, b;
+    memcpy(&a, to, sizeof a);
+    memcpy(&b, step, sizeof b);
+    a += b;
+    memcpy(to, &a, sizeof a);
+}
+
+#define any(lanes)                                                                                                             \
+    (((Long4)(lanes))[0] != 0 || ((Long4)(lanes))[1] != 0 || ((Long4)(lanes))[2] != 0 || ((Long4)(lanes))[3] != 0)
+
 struct Rival {
     const MoversScene *scene;
     bool sweep;
@@ -109,15 +143,13 @@ static void start_leg(Rival *rival, uint32_t object, int64_t tick) {
 }
 
 /* A step of eight; true if one of them is beyond its leg. */
-static bool step_block(Rival *rival, uint32_t first, int32_t tick) {
-    int32_t late = 0;
-    for (uint32_t i = first; i < first + LANES; i++) {
-        rival->x[i] += rival->dx[i];
-        rival->y[i] += rival->dy[i];
-        rival->z[i] += rival->dz[i];
-        late |= rival->until[i] < tick;
-    }
-    return late != 0;
+static ENF_WIDE_INLINE bool step_block(Rival *rival, uint32_t first, int32_t tick) {
+    add_eight(rival->x + first, rival->dx + first);
+    add_eight(rival->y + first, rival->dy + first);
+    add_eight(rival->z + first, rival->dz + first);
+    Whole8 until;
+    memcpy(&until, rival->until + first, sizeof until);
+    return any(until < tick);
 }
 
 /* Where a motion costs something it is worked out whole; a straight way has nothing but a position. */
@@ -125,16 +157,10 @@ static bool is_plain(const MoversDef *def) {
     return (def->motion == MOVERS_FREE || def->motion == MOVERS_LINEAR) && def->polygons == 0;
 }
 
-static void move_all(Rival *rival, int64_t tick) {
-    const MoversScene *scene = rival->scene;
-    uint32_t movers = scene->def.movers;
-    bool plain = is_plain(&scene->def);
+static ENF_WIDE_INLINE bool step_all(Rival *rival, int64_t tick) {
+    uint32_t movers = rival->scene->def.movers;
     bool follows = rival->tick + 1 == tick;
-    rival->tick = tick;
-    for (uint32_t i = 0; i < movers && !plain; i++) {
-        set_position(rival, i, bench_mover_state(&scene->movers[i], tick).position);
-    }
-    for (uint32_t b = 0; b < rival->count && plain; b += LANES) {
+    for (uint32_t b = 0; b < rival->count; b += LANES) {
         if (follows && !step_block(rival, b, (int32_t)tick)) {
             continue;
         }
@@ -144,6 +170,20 @@ static void move_all(Rival *rival, int64_t tick) {
             }
         }
     }
+    return true;
+}
+WIDE(bool, step_all, (Rival * rival, int64_t tick), (rival, tick))
+
+static void move_all(Rival *rival, int64_t tick) {
+    const MoversScene *scene = rival->scene;
+    if (is_plain(&scene->def)) {
+        (void)wide_step_all(rival, tick);
+    } else {
+        for (uint32_t i = 0; i < scene->def.movers; i++) {
+            set_position(rival, i, bench_mover_state(&scene->movers[i], tick).position);
+        }
+    }
+    rival->tick = tick;
 }
 
 /* ---- what is shown ---------------------------------------------------------------------------------------------- */
@@ -158,7 +198,7 @@ static void look_at(Rival *rival, const MoversWindows *windows, uint32_t object,
     }
 }
 
-static inline uint32_t cell_at(const Rival *rival, float x, float z) {
+static ENF_WIDE_INLINE uint32_t cell_at(const Rival *rival, float x, float z) {
     const EnfRoomsDef *d = &rival->scene->rooms.def;
     int32_t ix = (int32_t)((x - rival->origin_x) * rival->per_x); /* what lies before the origin is in the first room */
     int32_t iz = (int32_t)((z - rival->origin_z) * rival->per_z);
@@ -207,7 +247,7 @@ static void change_room(Rival *rival, uint32_t object, uint32_t cell) {
     rival->heads[cell] = object;
 }
 
-static void bin(Rival *rival) {
+static ENF_WIDE_INLINE bool bin(Rival *rival) {
     uint32_t movers = rival->scene->def.movers;
     for (uint32_t b = 0; b < rival->count; b += LANES) {
         uint32_t cells[LANES];
@@ -222,7 +262,9 @@ static void bin(Rival *rival) {
             }
         }
     }
+    return true;
 }
+WIDE(bool, bin, (Rival * rival), (rival))
 
 static void look_into(Rival *rival, const MoversWindow *window, const MoversWindows *windows, uint32_t *count) {
     Around rooms = around(rival, window->cell);
@@ -257,47 +299,33 @@ static EnfPyramid picture(const Rival *rival, const EnfView *view) {
     return planes;
 }
 
-/* The lanes of a block whose middles are behind no plane. */
-static inline uint32_t inside(const float *restrict x, const float *restrict y, const float *restrict z,
-                              const EnfPyramid *planes) {
-    uint32_t in[LANES];
-    for (uint32_t k = 0; k < LANES; k++) {
-        in[k] = 1U << k;
-    }
+/* The lanes of a block whose middles are behind no plane, a bit each. */
+static ENF_WIDE_INLINE uint32_t inside(const float *px, const float *py, const float *pz, const EnfPyramid *planes) {
+    Float8 x, y, z;
+    memcpy(&x, px, sizeof x);
+    memcpy(&y, py, sizeof y);
+    memcpy(&z, pz, sizeof z);
+    Whole8 in = {1, 2, 4, 8, 16, 32, 64, 128};
     for (uint32_t p = 0; p < planes->count; p++) {
-        float nx = planes->nx[p], ny = planes->ny[p], nz = planes->nz[p], d = planes->d[p];
-        for (uint32_t k = 0; k < LANES; k++) {
-            in[k] = nx * x[k] + ny * y[k] + nz * z[k] + d >= 0.0F ? in[k] : 0U;
-        }
+        in &= planes->nx[p] * x + planes->ny[p] * y + planes->nz[p] * z + planes->d[p] >= 0.0F;
     }
-    uint32_t mask = 0;
-    for (uint32_t k = 0; k < LANES; k++) {
-        mask |= in[k];
-    }
-    return mask;
+    Long4 pairs = (Long4)in;
+    uint64_t both = (uint64_t)(pairs[0] | pairs[1] | pairs[2] | pairs[3]);
+    return (uint32_t)(both | both >> 32) & 0xffU;
 }
 
-static inline uint32_t sweep_all(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
+static ENF_WIDE_INLINE uint32_t sweep_all(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t b = 0; b < rival->count; b += LANES) {
         uint32_t mask = inside(rival->x + b, rival->y + b, rival->z + b, planes);
-        for (; mask != 0; mask &= mask - 1) {
-            kept[count++] = b + enf_simd_lowest(mask);
+        for (uint32_t k = 0; k < LANES && mask != 0; k++) { /* a branch an object costs more */
+            kept[count] = b + k;
+            count += mask >> k & 1U;
         }
     }
     return count;
 }
-
-/* The same loop for a processor that has AVX2. */
-#if defined(__GNUC__) && defined(__x86_64__)
-__attribute__((target("avx2"), flatten)) static uint32_t sweep_wide(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
-    return sweep_all(rival, planes, kept);
-}
-#else
-static uint32_t sweep_wide(Rival *rival, const EnfPyramid *planes, uint32_t *kept) {
-    return sweep_all(rival, planes, kept);
-}
-#endif
+WIDE(uint32_t, sweep_all, (Rival * rival, const EnfPyramid *planes, uint32_t *kept), (rival, planes, kept))
 
 static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindows *windows, uint32_t *count) {
     EnfPyramid planes = picture(rival, view);
@@ -310,7 +338,7 @@ static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindo
         }
     }
     uint32_t *kept = rival->cells; /* flat's */
-    uint32_t kept_count = enf_simd_avx2() != NULL ? sweep_wide(rival, &planes, kept) : sweep_all(rival, &planes, kept);
+    uint32_t kept_count = wide_sweep_all(rival, &planes, kept);
     for (uint32_t k = 0; k < kept_count && kept[k] < rival->scene->def.movers; k++) {
         uint32_t cell = cell_at(rival, rival->x[kept[k]], rival->z[kept[k]]);
         if (rival->near[cell] == rival->frame) {
@@ -336,7 +364,7 @@ const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const Mover
         look_everywhere(rival, view, windows, count);
         return rival->found; /* in order already */
     }
-    bin(rival);
+    (void)wide_bin(rival);
     for (uint32_t i = 0; i < windows->count; i++) {
         look_into(rival, &windows->items[i], windows, count);
     }

@@ -25,6 +25,7 @@
     X(vis_p99_us)                                                                                                              \
     X(ratio_median)                                                                                                            \
     X(ratio_best)                                                                                                              \
+    X(mean_us)                                                                                                                 \
     X(max_us)                                                                                                                  \
     X(ns_object)                                                                                                               \
     X(evaluated)                                                                                                               \

@@ -14,7 +14,7 @@ BenchRow bench_row(const char *experiment, const char *scene, const char *techni
     snprintf(row.technique, sizeof row.technique, "%s", technique);
     row.lost_objects = row.lost_pixels = row.overdraw = -1.0;
     row.cells = row.portals = row.nodes = row.boxes = row.objects = -1.0;
-    row.max_us = row.ns_object = row.evaluated = row.exposed = row.expired = -1.0;
+    row.mean_us = row.max_us = row.ns_object = row.evaluated = row.exposed = row.expired = -1.0;
     row.reinserted = row.avoided = row.late = row.bytes_object = -1.0;
     row.vis_median_us = row.vis_p99_us = row.ratio_median = row.ratio_best = -1.0;
     return row;
@@ -71,6 +71,12 @@ bool bench_temporary_folder(char *folder, size_t size) {
 double bench_now_us(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e6 + (double)now.tv_nsec * 1e-3;
+}
+
+double bench_cpu_us(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec * 1e6 + (double)now.tv_nsec * 1e-3;
 }
 
