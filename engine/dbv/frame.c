@@ -6,7 +6,7 @@
 
 /* Objects that were exposed and not drawn get new volumes, so many a frame: when a long view opens, it is paid for in instalments.
  * The others are exposed again in the next frame, which costs less. */
-#define RENEWED_A_FRAME 128U
+#define RENEWED_A_FRAME 32U
 
 /* ---- begin ------------------------------------------------------------------------------------------------------ */
 
@@ -288,16 +288,19 @@ void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
 
 /* ---- end -------------------------------------------------------------------------------------------------------- */
 
-/* Is a volume short enough to be left until it ends? A drawn object's is hardly looser than itself; one that showed and its object
- * not would not get a tighter one while it is young. */
+/* Is a volume left until it ends? A drawn object will be evaluated in the next frame whatever its volume; one that showed and its
+ * object not would not get a tighter one while it is young and short. */
 static bool stays(const EnfDbvIndex *index, const EnfDbvExposure *exposure) {
     const EnfDbvVolume *volume = &index->volumes[exposure->object];
     if (index->def.policy == ENF_DBV_CONSTANT || volume->period <= 1) {
         return true;
     }
+    if (!enf_dbv_keeps_off_seen(index)) {
+        return exposure->drawn && volume->period <= (uint32_t)ENF_DBV_DRAWN_PERIOD;
+    }
     int64_t left = volume->expiry_tick - enf_world_tick(index->world);
-    bool young = enf_dbv_keeps_off_seen(index) && left > (int64_t)(volume->period / 2);
-    return volume->period <= (uint32_t)ENF_DBV_DRAWN_PERIOD && (exposure->drawn || young);
+    bool young = left > (int64_t)(volume->period / 2);
+    return exposure->drawn || (young && volume->period <= (uint32_t)ENF_DBV_DRAWN_PERIOD);
 }
 
 /* New volumes for what was exposed. */

@@ -251,15 +251,16 @@ static double longest(const Mover *mover) {
     return is_smooth(mover) ? 3.0 * (most + 2.0 * most / 3.0) : most;
 }
 
-static void make_mover(MoversScene *scene, Mover *mover, uint32_t cell, bool stays, uint64_t *seed) {
+/* `avoid`: rooms that it may not walk into, or NULL. */
+static void make_mover(MoversScene *scene, Mover *mover, uint32_t cell, const bool *avoid, uint64_t *seed) {
     const EnfMap *map = scene->rooms.map;
     const EnfCell *c = &map->cells[cell];
     EnfVec3 a = place_in(scene, cell, seed);
     EnfVec3 b = place_in(scene, cell, seed);
     EnfVec3 way_in = enf_scale(enf_add(enf_scale(a, 2.0), b), 1.0 / 3.0);
     EnfVec3 way_out = enf_scale(enf_add(enf_scale(b, 2.0), a), 1.0 / 3.0);
-    if (!stays && c->portal_count > 0) {
-        uint32_t portal = c->portal_first + (uint32_t)(random_unit(seed) * (double)c->portal_count);
+    uint32_t portal = c->portal_first + (uint32_t)(random_unit(seed) * (double)c->portal_count);
+    if (c->portal_count > 0 && (avoid == NULL || !avoid[map->portals[portal].target])) {
         EnfVec3 through = door(scene, portal, a.y);
         EnfBox3 box = enf_rooms_box(&scene->rooms, cell);
         EnfVec3 middle = enf_scale(enf_add(box.min, box.max), 0.5);
@@ -284,21 +285,61 @@ static void make_mover(MoversScene *scene, Mover *mover, uint32_t cell, bool sta
     mover->phase = (uint32_t)(random_unit(seed) * 2.0 * (double)mover->period);
 }
 
-static void make_movers(MoversScene *scene, uint32_t eye_cell) {
+/* Which rooms does the eye see on its way? NULL without memory. */
+static bool *rooms_on_the_way(MoversScene *scene, uint32_t eye_cell) {
+    bool *seen = calloc(scene->rooms.map->cells_count + 1U, sizeof *seen);
+    for (uint32_t f = 0; f < scene->def.frames && seen != NULL; f++) {
+        const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[f]);
+        for (uint32_t i = 0; i < set->visit_count; i++) {
+            seen[set->visits[i].cell] = true;
+        }
+    }
+    if (seen != NULL) {
+        seen[eye_cell] = true;
+    }
+    return seen;
+}
+
+/* A room that is seen or not, as asked: one of the cells at random, or else the next that is. */
+static uint32_t room_that(const bool *seen, bool shall_be, uint32_t cell, uint32_t cells, uint32_t fallback) {
+    for (uint32_t i = 0; i < cells; i++) {
+        uint32_t at = (cell + i) % cells;
+        if (seen[at] == shall_be) {
+            return at;
+        }
+    }
+    return fallback;
+}
+
+/* Without a number of visible ones, everywhere alike. Else these stay in rooms that the eye sees on its way, spread evenly, and the
+ * others in rooms that it never sees: so the visible ones are the same however many are hidden. */
+static bool make_movers(MoversScene *scene, uint32_t eye_cell) {
     const MoversDef *def = &scene->def;
     uint64_t seed = (uint64_t)def->seed * 1000003U + 17U;
     uint32_t cells = scene->rooms.map->cells_count;
     cells = cells < def->rooms ? cells : def->rooms;
-    for (uint32_t i = 0; i < def->movers; i++) {
-        uint32_t cell = (uint32_t)(random_unit(&seed) * (double)cells);
-        bool stays = def->visible > 0;
-        if (i < def->visible) {
-            cell = eye_cell;
-        } else if (def->visible > 0 && cell == eye_cell) {
-            cell = (cell + 1) % cells;
-        }
-        make_mover(scene, &scene->movers[i], cell, stays, &seed);
+    bool *seen = def->visible > 0 ? rooms_on_the_way(scene, eye_cell) : NULL;
+    bool *all = calloc(scene->rooms.map->cells_count + 1U, sizeof *all);
+    bool ok = all != NULL && (def->visible == 0 || seen != NULL);
+    for (uint32_t c = 0; c < scene->rooms.map->cells_count && ok; c++) {
+        all[c] = true;
     }
+    for (uint32_t i = 0; i < def->movers && ok; i++) {
+        uint32_t cell = (uint32_t)(random_unit(&seed) * (double)cells);
+        bool shall_be_seen = i < def->visible;
+        const bool *avoid = NULL;
+        if (shall_be_seen) {
+            cell = def->eye == MOVERS_STILL ? eye_cell : room_that(seen, true, cell, cells, eye_cell);
+            avoid = all;
+        } else if (seen != NULL) {
+            cell = room_that(seen, false, cell, cells, cell == eye_cell ? (cell + 1) % cells : cell);
+            avoid = seen;
+        }
+        make_mover(scene, &scene->movers[i], cell, avoid, &seed);
+    }
+    free(seen);
+    free(all);
+    return ok;
 }
 
 /* ---- the eye ---------------------------------------------------------------------------------------------------- */
@@ -405,8 +446,12 @@ bool bench_movers_open(MoversScene *scene, const MoversDef *def) {
         return false;
     }
     uint32_t cell = (rooms.nz / 2) * rooms.nx + rooms.nx / 2;
-    make_movers(scene, cell);
     make_views(scene, cell);
+    if (!make_movers(scene, cell)) {
+        fputs("enfbench: out of memory\n", stderr);
+        bench_movers_close(scene);
+        return false;
+    }
     return true;
 }
 

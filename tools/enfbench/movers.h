@@ -15,8 +15,10 @@ typedef enum MoversEye { MOVERS_STILL, MOVERS_WALK, MOVERS_JUMP } MoversEye;
 
 typedef struct MoversDef {
     uint32_t rooms, movers, frames, seed;
-    uint32_t visible;   /**< objects that stay in the eye's room; the rest stay out of it. 0: spread evenly */
-    uint32_t check;     /**< every check-th frame is compared with brute force */
+    uint32_t
+        visible;    /**< objects that stay in rooms seen on the eye's way (of a still eye, in its room); the rest stay in rooms
+                             never seen. 0: all walk anywhere */
+    uint32_t check; /**< every check-th frame is compared with brute force */
     uint32_t polygons;  /**< vertices of an object that are moved on the processor when it is evaluated */
     uint32_t furniture; /**< boxes a room */
     uint32_t period;    /**< ticks, of `constant`; the first of `adaptive` and `optimal` */
