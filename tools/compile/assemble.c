@@ -1,5 +1,5 @@
 /* EnfAssembly: the order of the stages, and the view of the result as a map. */
-#include "compile/assemble.h"
+#include "compile/movers.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -44,7 +44,8 @@ EnfResult enf_assemble(EnfAssembly *assembly, const EnfAssemblyParts *parts, Enf
     if (result != ENF_OK) {
         return result;
     }
-    if (!enf_assemble_lights(assembly, parts) || !enf_assemble_entities(assembly, parts) || !take_strings(assembly)) {
+    if (!enf_assemble_lights(assembly, parts) || !enf_assemble_entities(assembly, parts) ||
+        !enf_assemble_movers(assembly, parts) || !take_strings(assembly)) {
         return no_memory(error);
     }
     return ENF_OK;

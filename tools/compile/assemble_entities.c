@@ -1,5 +1,5 @@
 /* Entities, cameras and paths of a map: what is not static geometry. */
-#include "compile/assemble.h"
+#include "compile/movers.h"
 
 #include <cJSON.h>
 #include <stdlib.h>
@@ -14,7 +14,10 @@ static bool is_entity(const EnfAssemblyParts *parts, uint32_t node) {
     if (role == ENF_ROLE_IGNORED) {
         return false;
     }
-    return role != ENF_ROLE_GEOMETRY || n->camera != ENF_NONE || n->light != ENF_NONE || n->extras[0] || n->animated;
+    const uint32_t *movers = parts->layout->node_movers;
+    bool carried = role == ENF_ROLE_MOVER && movers[node] != node; /* a piece of something that moves */
+    return (role != ENF_ROLE_GEOMETRY && !carried) || n->camera != ENF_NONE || n->light != ENF_NONE || n->extras[0] ||
+           n->animated || enf_mover_collides(parts->source, parts->layout, node);
 }
 
 /* The text of the key `classname`, interned. */

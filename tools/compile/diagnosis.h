@@ -31,6 +31,9 @@ extern "C" {
     X(NO_LIGHTS, "no-lights", false)                                                                                           \
     X(DEGENERATE_TRIANGLES, "degenerate-triangles", false)                                                                     \
     X(UNSUPPORTED, "unsupported-feature", false) /* optional extension, primitive mode, morph, skin: what is lost */           \
+    X(MOVER_KEY, "mover-key", false)             /* a key of extras that makes no sense, or is missing */                      \
+    X(MOVER_STATIC, "mover-static", false)       /* something cannot move */                                                   \
+    X(DOOR_PORTAL, "door-portal", false)         /* a door does not close its opening */                                       \
     X(IMAGE, "image-unreadable", false)                                                                                        \
     X(NO_GEOMETRY, "no-geometry", true)                                                                                        \
     X(TOO_LARGE, "too-large", true)

@@ -82,8 +82,7 @@ static EnfVec3 column(const EnfAffine *a, int c) {
     return enf_v3(a->m[3 * c], a->m[3 * c + 1], a->m[3 * c + 2]);
 }
 
-/* Translation, rotation and scale of `world`; a mirrored one has a negative x scale, and shear is dropped. */
-static void decompose(EnfSourceNode *node) {
+void enf_source_decompose(EnfSourceNode *node) {
     const EnfAffine *world = &node->world;
     double sign = enf_affine_det(world) < 0.0 ? -1.0 : 1.0;
     EnfVec3 x = column(world, 0), y = column(world, 1), z = column(world, 2);
@@ -158,7 +157,7 @@ static EnfResult fill_node(Walk *walk, EnfSourceNode *node, Visit visit) {
                              "nodes[%u]: '%.100s' lies more than 2^28 m away, or its transform overflows", visit.file_node,
                              node->name);
     }
-    decompose(node);
+    enf_source_decompose(node);
     if (from->skinned) {
         enf_diagnose(import->diagnosis, ENF_DIAGNOSIS_UNSUPPORTED, node->name, "skinning is not supported; drawn as modelled");
     }
@@ -227,7 +226,7 @@ static EnfResult add_instances(Walk *walk, uint32_t owner, uint32_t count) {
             result = enf_error_set(import->error, ENF_ERROR_RANGE, UINT64_MAX, "nodes[%u]: instance %u has no usable transform",
                                    node->index, i);
         }
-        decompose(copy);
+        enf_source_decompose(copy);
     }
     node->mesh = ENF_NONE;
     return result;

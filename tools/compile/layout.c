@@ -1,6 +1,6 @@
 /* EnfLayout. Input: an EnfSource; output: cells, half-portals and the cell of every node. The order of work: roles and cells, openings,
  * links, half-portals. Source: DESIGN §3, §6. */
-#include "compile/layout_work.h"
+#include "compile/movers.h"
 
 EnfCompileSettings enf_compile_settings_default(void) {
     return (EnfCompileSettings){.leak_gap = 0.25,
@@ -304,7 +304,7 @@ EnfResult enf_layout_build(EnfLayout *layout, const EnfSource *source, const Enf
     layout->roles = calloc((size_t)source->node_count + 1, sizeof *layout->roles);
     layout->node_cells = calloc((size_t)source->node_count + 1, sizeof *layout->node_cells);
     EnfResult result = ENF_OK;
-    if (layout->roles == NULL || layout->node_cells == NULL || !enf_layout_roles(&work)) {
+    if (layout->roles == NULL || layout->node_cells == NULL || !enf_layout_roles(&work) || !enf_movers_mark(&work)) {
         result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory for %u nodes", source->node_count);
     } else if (!has_geometry(&work)) {
         enf_diagnose(diagnosis, ENF_DIAGNOSIS_NO_GEOMETRY, "", "the level has no triangles to draw");
@@ -334,6 +334,7 @@ void enf_layout_free(EnfLayout *layout) {
     free(layout->bound_planes);
     free(layout->roles);
     free(layout->node_cells);
+    free(layout->node_movers);
     free(layout->guests);
     memset(layout, 0, sizeof *layout);
 }

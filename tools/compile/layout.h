@@ -29,7 +29,8 @@ typedef enum EnfRole {
     ENF_ROLE_BOUND,
     ENF_ROLE_COLLISION, /**< -colonly: not drawn */
     ENF_ROLE_IGNORED,   /**< -noimp and its children */
-    ENF_ROLE_MARKER     /**< no mesh */
+    ENF_ROLE_MARKER,    /**< no mesh */
+    ENF_ROLE_MOVER      /**< its mesh moves */
 } EnfRole;
 
 typedef struct EnfLayoutCell {
@@ -70,8 +71,10 @@ typedef struct EnfLayout {
     uint32_t point_count;
     EnfPlane *bound_planes;
     uint32_t bound_plane_count;
-    EnfRole *roles;         /**< a source node */
-    uint32_t *node_cells;   /**< a source node's cell, or ENF_NONE: loose */
+    EnfRole *roles;       /**< a source node */
+    uint32_t *node_cells; /**< a source node's cell, or ENF_NONE: loose */
+    uint32_t *
+        node_movers; /**< a source node: the node with which it moves (itself, or above it), or ENF_NONE; NULL: nothing moves */
     EnfLayoutGuest *guests; /**< ascending */
     uint32_t guest_count;
 } EnfLayout;

@@ -98,6 +98,9 @@ struct EnfDiagnosis;
 EnfResult enf_source_import(EnfSource *source, const char *path, struct EnfDiagnosis *diagnosis, EnfError *error);
 void enf_source_free(EnfSource *source);
 
+/** Translation, rotation and scale of the node's `world`; a mirrored one has a negative x scale, and shear is dropped. */
+void enf_source_decompose(EnfSourceNode *node);
+
 #ifdef __cplusplus
 }
 #endif
