@@ -187,6 +187,22 @@ bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume,
     return true;
 }
 
+EnfDbvState enf_dbv_state(const EnfDbvIndex *index, uint32_t object) {
+    if (object >= index->volume_count || !index->volumes[object].alive) {
+        return ENF_DBV_STATE_NONE;
+    }
+    const EnfDbvVolume *volume = &index->volumes[object];
+    if (volume->exposed_frame == index->frame && index->exposure_count > 0) {
+        return index->exposures[volume->exposure].drawn ? ENF_DBV_STATE_DRAWN : ENF_DBV_STATE_EXPOSED;
+    }
+    for (uint32_t i = 0; i < index->due.count; i++) {
+        if (index->due.items[i] == object) {
+            return ENF_DBV_STATE_EXPIRED;
+        }
+    }
+    return ENF_DBV_STATE_ASLEEP;
+}
+
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
     size_t lists = index->due.capacity + index->drawn.capacity + index->candidates.capacity;
     size_t portals = index->portal_boxes == NULL ? 0 : (size_t)index->map->portals_count + 1;

@@ -12,12 +12,50 @@
 
 enum { COMMAND_SIZE = 2048 };
 
+enum { CRATES = 24 };
+
+/* Crates that go about the rooms, and two leaves that turn. */
+static void add_movers(EnfMaker *maker) {
+    enf_maker_mesh(maker, "crate", 1, (EnfBox3){{-0.25, -0.25, -0.25}, {0.25, 0.25, 0.25}});
+    enf_maker_mesh(maker, "leaf", 2, (EnfBox3){{0, 0, -0.0625}, {1, 2, 0.0625}});
+    for (uint32_t i = 0; i < CRATES + 2; i++) {
+        EnfEntity entity = {{1.0 + 0.3 * i, 1.0, 2.5 + 0.2 * i},
+                            {0, 0, 0, 1},
+                            {1, 1, 1},
+                            enf_maker_string(maker, "mover"),
+                            0,
+                            0,
+                            ENF_NONE,
+                            0,
+                            ENF_NONE,
+                            ENF_NONE};
+        EnfMover mover = enf_maker_mover_default();
+        mover.entity = enf_maker_entity(maker, &entity);
+        mover.mesh = i < CRATES ? 0 : 1;
+        mover.kind = i < CRATES ? ENF_MOVER_PATH : ENF_MOVER_HINGE;
+        mover.wrap = ENF_WRAP_PING_PONG;
+        mover.high = 1.5f;
+        mover.seconds = 4.0f;
+        mover.phase = 0.5f * (float)i;
+        if (i < CRATES) {
+            float x = 0.5f + 0.37f * (float)i;
+            const float floats[12] = {0, 2, 4, x, 0.5f, 0.5f, x, 2.0f, 9.5f, 9.5f - x, 1.0f, 0.5f};
+            EnfPath path = {entity.name, mover.entity, ENF_PATH_TRANSLATION, ENF_PATH_LINEAR, 3, 0};
+            mover.translation = enf_maker_path(maker, &path, floats, 12);
+        } else {
+            memcpy(mover.pivot, entity.translation, sizeof mover.pivot);
+        }
+        enf_maker_mover(maker, &mover);
+    }
+}
+
 /* Writes the map of a few rooms; `closed`: with portals shut although nothing fills the doors, so culling must lose pixels. */
-static const char *write_map(const char *name, bool closed, uint32_t *cluster_count) {
+static const char *write_map(const char *name, bool closed, bool moving, uint32_t *cluster_count) {
     EnfRoomsDef def = enf_rooms_def_default();
     EnfRooms rooms;
     EnfError error = {0};
     def.nx = def.nz = 2;
+    def.extend = moving ? add_movers : NULL;
     assert_true(enf_rooms_create(&rooms, &def, &error));
     EnfMap map = *rooms.map;
     EnfPortal *portals = malloc(map.portals_count * sizeof *portals);
@@ -37,7 +75,7 @@ static const char *write_map(const char *name, bool closed, uint32_t *cluster_co
 
 static const char *open_map(void) {
     uint32_t count;
-    return write_map("rooms.enfmap", false, &count);
+    return write_map("rooms.enfmap", false, false, &count);
 }
 
 /* Runs enfview; `output` (NULL: thrown away) gets what it prints on stdout. */
@@ -69,6 +107,11 @@ static void bad_command_lines_are_refused(void **state) {
                                         "'%s' --eye 0,0,0 --size 0x5",
                                         "'%s' --eye 0,0,0 --fov-y 180",
                                         "'%s' --eye 0,0,0 --debug doors",
+                                        "'%s' --eye 0,0,0 --debug dbv --dbv off",
+                                        "'%s' --eye 0,0,0 --tick -1",
+                                        "'%s' --eye 0,0,0 --tick 0.5",
+                                        "'%s' --eye 0,0,0 --dbv most",
+                                        "'%s' --eye 0,0,0 --doors open",
                                         "'%s' --eye 0,0,0 --freeze 1,2,3",
                                         "'%s' --eye 0,0,0 --verify",
                                         "'%s' --eye 0,0,0 --path x.csv",
@@ -114,7 +157,7 @@ static void ids_and_statistics_are_written(void **state) {
     (void)state;
     uint32_t clusters;
     char arguments[COMMAND_SIZE];
-    const char *map = write_map("rooms.enfmap", false, &clusters);
+    const char *map = write_map("rooms.enfmap", false, false, &clusters);
     need_context(map, "any");
     const char *ids = enf_test_temp_path("ids.png"), *stats = enf_test_temp_path("stats.json");
     snprintf(arguments, sizeof arguments, "'%s' --eye 2.5,1.5,4.9 --yaw 30 --size 64x48 --ids '%s' --raw-ids --stats '%s'", map,
@@ -243,7 +286,7 @@ static void what_is_lost_is_found(void **state) {
     (void)state;
     uint32_t clusters;
     char arguments[COMMAND_SIZE];
-    const char *map = write_map("closed.enfmap", true, &clusters), *path = write_path(21);
+    const char *map = write_map("closed.enfmap", true, false, &clusters), *path = write_path(21);
     need_context(map, "any");
     const char *out = enf_test_temp_path("out.txt");
     snprintf(arguments, sizeof arguments, "'%s' --path '%s' --verify --size 160x120 --quiet", map, path);
@@ -254,7 +297,76 @@ static void what_is_lost_is_found(void **state) {
     free(text);
 }
 
+/* ---- movers ----------------------------------------------------------------------------------------------------- */
+
+static uint64_t count_after(const char *text, const char *key) {
+    const char *at = strstr(text, key);
+    assert_non_null(at);
+    return strtoull(at + strlen(key), NULL, 10);
+}
+
+/* In the world's sixtieth tick and later, with each policy: nothing lost, nothing late, objects drawn. */
+static void what_moves_is_drawn_and_verified(void **state) {
+    (void)state;
+    static const char *const policies[] = {"off", "constant", "adaptive", "maximal", "optimal", "reach"};
+    uint32_t clusters;
+    char arguments[COMMAND_SIZE];
+    const char *map = write_map("moving.enfmap", false, true, &clusters), *path = write_path(41);
+    need_context(map, "any");
+    const char *out = enf_test_temp_path("out.txt");
+    for (size_t i = 0; i < sizeof policies / sizeof *policies; i++) {
+        snprintf(arguments, sizeof arguments, "'%s' --path '%s' --verify --size 160x120 --quiet --tick 60 --dbv %s", map, path,
+                 policies[i]);
+        view(arguments, out); /* a T-junction may cost a pixel: see above */
+        size_t size;
+        char *text = (char *)enf_test_read_file(out, &size);
+        assert_true(count_after(text, "\"lost_views\": ") <= 1);
+        assert_int_equal(count_after(text, "\"objects\": "), CRATES + 2);
+        assert_true(count_after(text, "\"objects_drawn_mean\": ") > 0);
+        if (i > 0) {
+            assert_int_equal(count_after(text, "\"late\": "), 0);
+            assert_true(count_after(text, "\"exposed\": ") > 0);
+        }
+        free(text);
+    }
+}
+
+/* Time moves pictures, volumes do not; and they are shown. */
+static void ticks_and_volumes_are_seen(void **state) {
+    (void)state;
+    uint32_t clusters;
+    char arguments[COMMAND_SIZE];
+    const char *map = write_map("moving.enfmap", false, true, &clusters);
+    need_context(map, "any");
+    static const char *const options[] = {"--tick 0", "--tick 90", "--tick 90 --dbv off", "--tick 90 --debug dbv"};
+    uint8_t *pictures[4];
+    const char *out = enf_test_temp_path("tick.png"), *stats = enf_test_temp_path("tick.json");
+    for (int i = 0; i < 4; i++) {
+        snprintf(arguments, sizeof arguments, "'%s' --eye 2.5,1.5,4.5 --yaw 20 --size 160x120 %s -o '%s' --stats '%s'", map,
+                 options[i], out, stats);
+        assert_int_equal(view(arguments, NULL), 0);
+        pictures[i] = read_picture(out, 160, 120);
+    }
+    assert_memory_equal(pictures[1], pictures[2], (size_t)160 * 120 * 4);
+    assert_true(memcmp(pictures[0], pictures[1], (size_t)160 * 120 * 4) != 0);
+    assert_true(memcmp(pictures[3], pictures[1], (size_t)160 * 120 * 4) != 0);
+    for (int i = 0; i < 4; i++) {
+        enf_free(NULL, pictures[i], (size_t)160 * 120, 4);
+    }
+    size_t size;
+    char *text = (char *)enf_test_read_file(stats, &size);
+    static const char *const keys[] = {"evaluated", "exposed", "expired", "reinserted", "avoided", "late", "\"tick\": 90"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (!strstr(text, keys[i])) {
+            fail_msg("statistics lack %s", keys[i]);
+        }
+    }
+    free(text);
+}
+
 static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_moves_is_drawn_and_verified),
+    cmocka_unit_test(ticks_and_volumes_are_seen),
     cmocka_unit_test(bad_command_lines_are_refused),
     cmocka_unit_test(failures_have_status_1),
     cmocka_unit_test(ids_and_statistics_are_written),

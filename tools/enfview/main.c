@@ -48,13 +48,13 @@ static bool parse_pose(const char *text, Pose *pose) {
 }
 
 static bool parse_debug(const EnfOptionList *list, uint32_t *debug) {
-    static const char *const names[] = {"portals", "cells", "windows", "kd"};
+    static const char *const names[] = {"portals", "cells", "windows", "kd", "dbv"};
     for (uint32_t i = 0; i < list->count; i++) {
         uint32_t k = 0;
-        while (k < 4 && strcmp(list->items[i], names[k]) != 0) {
+        while (k < 5 && strcmp(list->items[i], names[k]) != 0) {
             k++;
         }
-        if (k == 4) {
+        if (k == 5) {
             return false;
         }
         *debug |= 1u << k;
@@ -74,13 +74,19 @@ static EnfCliResult check(const EnfCli *cli, Options *o, const Raw *raw, uint32_
         return enf_cli_fail(cli, "--freeze: '%s' is not X,Y,Z,YAW,PITCH", raw->freeze);
     }
     if (!parse_debug(&raw->debug, &o->debug)) {
-        return enf_cli_fail(cli, "--debug takes portals, cells, windows or kd");
+        return enf_cli_fail(cli, "--debug takes portals, cells, windows, kd or dbv");
     }
     if (o->has_eye == (o->path != NULL)) {
         return enf_cli_fail(cli, o->path ? "--eye and --path exclude each other" : "--eye X,Y,Z or --path FILE.csv is needed");
     }
     if (o->fov_y_deg <= 0.0 || o->fov_y_deg > 170.0) {
         return enf_cli_fail(cli, "--fov-y must be above 0 and at most 170 degrees");
+    }
+    if (!(o->tick >= 0.0 && o->tick <= 1e9) || o->tick != floor(o->tick)) {
+        return enf_cli_fail(cli, "--tick takes a whole number from 0 to 10^9");
+    }
+    if ((o->debug & DEBUG_DBV) && o->dbv == DBV_OFF) {
+        return enf_cli_fail(cli, "--debug dbv shows what --dbv off leaves out");
     }
     if (o->every == 0) {
         return enf_cli_fail(cli, "--every must be at least 1");
@@ -106,13 +112,19 @@ static EnfCliResult parse(Options *o, int argc, char **argv) {
         {"--cull", NULL, ENF_OPTION_CHOICE, &o->cull, NULL, "none|frustum|sequences|worklist", "default worklist"},
         {"--window", NULL, ENF_OPTION_CHOICE, &o->window, NULL, "box|polygon", "default box"},
         {"--grain", NULL, ENF_OPTION_CHOICE, &o->grain, NULL, "objects|primitives", "default objects"},
+        {"--dbv", NULL, ENF_OPTION_CHOICE, &o->dbv, NULL, "off|constant|adaptive|maximal|optimal|reach",
+         "volumes of what moves; default maximal"},
+        {"--tick", NULL, ENF_OPTION_NUMBER, &o->tick, "N", NULL, "the world's time, 1/60 s; of a path: at its time 0 (0)"},
+        {"--doors", NULL, ENF_OPTION_CHOICE, &o->doors, NULL, "rest|swing|close",
+         "stay shut; open and shut in turn (default); and close their portals while shut"},
         {"--cell", NULL, ENF_OPTION_TEXT, &o->cell_name, "NAME", NULL, "the eye's cell, instead of locating it"},
         {"--context", NULL, ENF_OPTION_CHOICE, &o->context, NULL, "any|egl|osmesa", "default any: EGL, else OSMesa"},
         {"--output", "-o", ENF_OPTION_TEXT, &o->output, "OUT.png", NULL, "the picture"},
         {"--ids", NULL, ENF_OPTION_TEXT, &o->ids, "IDS.png", NULL, "the id-buffer, a colour for each cluster"},
         {"--raw-ids", NULL, ENF_OPTION_FLAG, &o->raw_ids, NULL, NULL, "--ids holds cluster + 1, little-endian in RGBA"},
         {"--stats", NULL, ENF_OPTION_TEXT, &o->stats, "STATS.json", NULL, "counters, times and hashes (- for stdout)"},
-        {"--debug", NULL, ENF_OPTION_LIST, &raw.debug, "WHAT", NULL, "draw portals, cells, windows or kd; may be repeated"},
+        {"--debug", NULL, ENF_OPTION_LIST, &raw.debug, "WHAT", NULL,
+         "draw portals, cells, windows, kd or dbv; may be repeated"},
         {"--freeze", NULL, ENF_OPTION_TEXT, &raw.freeze, "X,Y,Z,YAW,PITCH", NULL,
          "cull from there; what is culled is drawn as wireframe"},
         {"--path", NULL, ENF_OPTION_TEXT, &o->path, "PATH.csv", NULL, "go along a path: time,x,y,z,yaw,pitch,..."},
@@ -136,6 +148,8 @@ static void print_message(void *user, EnfLogLevel level, const char *message) {
 
 int main(int argc, char **argv) {
     Options options = {.fov_y_deg = 60.0, .size = {640, 480}, .cull = ENF_CULL_WORKLIST, .every = 1};
+    options.dbv = ENF_DBV_MAXIMAL + 1;
+    options.doors = DOORS_SWING;
     EnfCliResult parsed = parse(&options, argc, argv);
     if (parsed != ENF_CLI_RUN) {
         return parsed == ENF_CLI_DONE ? ENF_EXIT_OK : ENF_EXIT_USAGE;

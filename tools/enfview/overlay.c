@@ -2,6 +2,7 @@
  * that those it cut can be shown, too. */
 #include "enfview/overlay.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum { GREEN = 0x50ff50, RED = 0x4040ff, GREY = 0x808080, WHITE = 0xffffff }; /* R in the low byte */
@@ -158,6 +159,63 @@ static void add_tree(const Overlay *overlay, Lines *lines, uint32_t cell) {
     }
 }
 
+/* ---- volumes ---------------------------------------------------------------------------------------------------- */
+
+/* Colours of states, R in the low byte; asleep is dimmer the sooner it ends. */
+static const uint32_t state_colors[] = {0, 0xe0a060, 0xe040e0, 0x30a0ff, 0x40ff40};
+
+/* How much of 2^20 ticks (five hours) is left, on a scale of doublings: 0 to 1. */
+static double share_left(int64_t ticks) {
+    double share = 0.0;
+    for (int64_t t = ticks; t > 0 && share < 1.0; t /= 2) {
+        share += 1.0 / 20.0;
+    }
+    return share;
+}
+
+static uint32_t dimmed(uint32_t rgb, double level) {
+    uint32_t out = 0;
+    for (int i = 0; i < 3; i++) {
+        out |= (uint32_t)((double)(rgb >> (8 * i) & 255u) * level) << (8 * i);
+    }
+    return out;
+}
+
+/* The box of a volume, and on its middle a bar as long as what is left of its validity. */
+static void add_volume(const Overlay *overlay, Lines *lines, uint32_t object) {
+    const EnfDbvIndex *dbv = overlay->viewer->dbv;
+    EnfDbvState state = enf_dbv_state(dbv, object);
+    EnfBox3f box;
+    int64_t expiry;
+    if (state == ENF_DBV_STATE_NONE || !enf_dbv_volume(dbv, object, &box, &expiry)) {
+        return;
+    }
+    double left = share_left(expiry - enf_world_tick(overlay->viewer->world));
+    uint32_t rgb = dimmed(state_colors[state], state == ENF_DBV_STATE_ASLEEP ? 0.5 + 0.5 * left : 1.0);
+    EnfKdNode node = {{box.min.x, box.min.y, box.min.z}, 0, {box.max.x, box.max.y, box.max.z}, 0};
+    add_box(lines, &node, enf_v3(0.0, 0.0, 0.0), rgb);
+    EnfVec3 low = enf_v3_from_f(box.min), high = enf_v3_from_f(box.max);
+    EnfVec3 begin = enf_v3(low.x, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z));
+    EnfVec3 end = begin, full = begin;
+    end.x += (high.x - low.x) * left;
+    full.x = high.x;
+    add_line(lines, begin, end, WHITE);
+    add_line(lines, end, full, dimmed(rgb, 0.4));
+}
+
+void overlay_print_legend(const Viewer *viewer) {
+    uint32_t counts[5] = {0};
+    for (uint32_t i = 0; i < enf_world_object_limit(viewer->world); i++) {
+        counts[enf_dbv_state(viewer->dbv, i)]++;
+    }
+    fprintf(stderr,
+            "volumes: %u asleep (blue, dimmer the sooner they end), %u expired in this frame (magenta), %u exposed in vain "
+            "(orange), %u drawn (green); the white part of a volume's bar is its remaining validity, full at 2^20 ticks, "
+            "half at 2^10\n",
+            counts[ENF_DBV_STATE_ASLEEP], counts[ENF_DBV_STATE_EXPIRED], counts[ENF_DBV_STATE_EXPOSED],
+            counts[ENF_DBV_STATE_DRAWN]);
+}
+
 /* ---- all lines -------------------------------------------------------------------------------------------------- */
 
 static void flush(const Overlay *overlay, Lines *lines, bool through) {
@@ -177,6 +235,9 @@ EnfResult overlay_draw_lines(const Overlay *overlay, EnfError *error) {
     if (options->debug & DEBUG_PORTALS) {
         add_all_portals(overlay, &lines);
     }
+    for (uint32_t i = 0; options->debug & DEBUG_DBV && overlay->viewer->dbv && i < overlay->viewer->map.movers_count; i++) {
+        add_volume(overlay, &lines, i);
+    }
     for (uint32_t i = 0; options->debug & DEBUG_WINDOWS && i < overlay->set->visit_count; i++) {
         if (overlay->set->visits[i].space == 0) {
             add_window(overlay, &lines, &overlay->set->visits[i]);
@@ -190,32 +251,51 @@ EnfResult overlay_draw_lines(const Overlay *overlay, EnfError *error) {
     return lines.failed ? enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for lines") : ENF_OK;
 }
 
-/* ---- culled clusters -------------------------------------------------------------------------------------------- */
+/* ---- what is culled --------------------------------------------------------------------------------------------- */
+
+/* Entries ascend: a merge of all numbers with those seen. */
+static void list_culled_clusters(const EnfVisSet *set, uint32_t clusters, EnfVisEntry *entries, EnfVisSet *culled) {
+    uint32_t next = 0;
+    for (uint32_t c = 0; c < clusters; c++) {
+        while (next < set->entry_count && set->entries[next].space == 0 && set->entries[next].cluster < c) {
+            next++;
+        }
+        bool seen = next < set->entry_count && set->entries[next].space == 0 && set->entries[next].cluster == c;
+        if (!seen) {
+            EnfVisEntry entry = {c, 0, 0};
+            entries[culled->entry_count++] = entry;
+        }
+    }
+}
+
+static void list_culled_objects(const EnfVisSet *set, uint32_t count, uint32_t *objects, EnfVisSet *culled) {
+    uint32_t next = 0;
+    culled->objects_listed = true;
+    for (uint32_t i = 0; i < count && set->objects_listed; i++) {
+        next += next < set->object_count && set->objects[next] < i ? 1U : 0U;
+        if (next >= set->object_count || set->objects[next] != i) {
+            objects[culled->object_count++] = i;
+        }
+    }
+}
 
 EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error) {
     const EnfMap *map = &overlay->viewer->map;
     EnfVisEntry *entries = enf_alloc(NULL, (size_t)map->clusters_count + 1, sizeof *entries);
-    if (!entries) {
-        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for culled clusters");
+    uint32_t *objects = enf_alloc(NULL, (size_t)map->movers_count + 1, sizeof *objects);
+    EnfResult result = ENF_OK;
+    if (entries && objects) {
+        EnfVisSet culled = {.entries = entries, .objects = objects, .cameras = &overlay->observer, .space_count = 1};
+        list_culled_clusters(overlay->set, map->clusters_count, entries, &culled);
+        list_culled_objects(overlay->set, map->movers_count, objects, &culled);
+        const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR, overlay->viewer->world, 1.0);
+        enf_gl_draw_wireframe(overlay->viewer->gl, list, 0x38a0a0a0u);
+    } else {
+        result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for what is culled");
     }
-    EnfVisSet culled = {.entries = entries, .cameras = &overlay->observer, .space_count = 1};
-    uint32_t next = 0; /* entries ascend: a merge of all numbers with those seen */
-    for (uint32_t c = 0; c < map->clusters_count; c++) {
-        while (next < overlay->set->entry_count && overlay->set->entries[next].space == 0 &&
-               overlay->set->entries[next].cluster < c) {
-            next++;
-        }
-        bool seen = next < overlay->set->entry_count && overlay->set->entries[next].space == 0 &&
-                    overlay->set->entries[next].cluster == c;
-        if (!seen) {
-            EnfVisEntry entry = {c, 0, 0};
-            entries[culled.entry_count++] = entry;
-        }
-    }
-    const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR, NULL, 1.0);
-    enf_gl_draw_wireframe(overlay->viewer->gl, list, 0x38a0a0a0u);
     enf_free(NULL, entries, (size_t)map->clusters_count + 1, sizeof *entries);
-    return ENF_OK;
+    enf_free(NULL, objects, (size_t)map->movers_count + 1, sizeof *objects);
+    return result;
 }
 
 /* ---- colours ---------------------------------------------------------------------------------------------------- */
@@ -241,7 +321,7 @@ static uint32_t take_id(const uint8_t *pixel) {
 void overlay_tint_cells(const EnfMap *map, const uint8_t *ids, const uint8_t *plain, uint8_t *rgba, size_t size) {
     for (size_t i = 0; i < size; i += 4) {
         uint32_t id = take_id(ids + i);
-        if (id && memcmp(plain + i, rgba + i, 4) == 0) {
+        if (id && id <= map->clusters_count && memcmp(plain + i, rgba + i, 4) == 0) {
             uint32_t rgb = overlay_color(map->clusters[id - 1].cell);
             for (int k = 0; k < 3; k++) {
                 rgba[i + (size_t)k] = (uint8_t)((rgba[i + (size_t)k] + (rgb >> (8 * k) & 255u)) / 2u);

@@ -9,7 +9,8 @@
 
 #include <stdio.h>
 
-enum { VIS_RUNS = 31, FRAMES = 7 };
+/* Volumes are as a still eye has left them after so many ticks. */
+enum { VIS_RUNS = 31, FRAMES = 7, WARM_TICKS = 240 };
 
 /* What is seen from where, and what it took. */
 typedef struct Shot {
@@ -27,6 +28,25 @@ typedef struct Shot {
 
 /* ---- seeing ----------------------------------------------------------------------------------------------------- */
 
+/* The world runs to its tick, the eye looks on; the last frame is counted. */
+static void let_pass(Shot *shot) {
+    Viewer *viewer = shot->viewer;
+    int64_t end = (int64_t)viewer->options->tick;
+    life_run(viewer, end > WARM_TICKS ? end - WARM_TICKS : 0);
+    for (;;) {
+        uint64_t evaluated = enf_world_evaluations(viewer->world);
+        enf_vis_run(viewer->vis, &viewer->portals, &shot->view);
+        if (viewer->dbv) {
+            viewer->frame_counters = enf_dbv_frame_counters(viewer->dbv);
+            viewer->frame_evaluated = enf_world_evaluations(viewer->world) - evaluated;
+        }
+        if (enf_world_tick(viewer->world) == end) {
+            return;
+        }
+        life_run(viewer, enf_world_tick(viewer->world) + 1);
+    }
+}
+
 static EnfResult see(Shot *shot, EnfError *error) {
     Viewer *viewer = shot->viewer;
     const Options *o = viewer->options;
@@ -37,6 +57,7 @@ static EnfResult see(Shot *shot, EnfError *error) {
     }
     shot->view = viewer_view(viewer, from, shot->cell);
     shot->observer = viewer_camera(viewer, &o->pose);
+    let_pass(shot);
     double samples[VIS_RUNS];
     for (int i = 0; i < VIS_RUNS; i++) {
         double start = viewer_now_us();
@@ -48,7 +69,7 @@ static EnfResult see(Shot *shot, EnfError *error) {
     shot->seen.cameras = &shot->observer;
     for (int i = 0; i < VIS_RUNS; i++) {
         double start = viewer_now_us();
-        shot->list = enf_draw_build(viewer->draw, &shot->seen, ENFVIEW_NEAR, NULL, 1.0);
+        shot->list = enf_draw_build(viewer->draw, &shot->seen, ENFVIEW_NEAR, viewer->world, 1.0);
         samples[i] = viewer_now_us() - start;
     }
     shot->draw_us = viewer_quantile(samples, VIS_RUNS, 0.5);
@@ -86,7 +107,7 @@ static void draw_ids(Shot *shot) {
 static EnfResult draw_overlays(Shot *shot, EnfError *error) {
     Viewer *viewer = shot->viewer;
     const Options *o = viewer->options;
-    if (!o->has_freeze && !(o->debug & (DEBUG_PORTALS | DEBUG_WINDOWS | DEBUG_KD))) {
+    if (!o->has_freeze && !(o->debug & (DEBUG_PORTALS | DEBUG_WINDOWS | DEBUG_KD | DEBUG_DBV))) {
         return ENF_OK;
     }
     Overlay overlay = {viewer, shot->set, shot->observer, shot->list->clip_from_eye};
@@ -175,10 +196,14 @@ static void report_counters(EnfReport *report, const Shot *shot) {
     enf_report_object(report, "drawn");
     enf_report_count(report, "cells", shot->list->cell_count);
     enf_report_count(report, "clusters", shot->list->cluster_count);
+    enf_report_count(report, "objects", shot->list->mover_count);
     enf_report_count(report, "triangles", shot->list->triangle_count);
     enf_report_count(report, "batches", shot->list->batch_count);
     enf_report_count(report, "ranges", shot->list->range_count);
     enf_report_end_object(report);
+    enf_report_count(report, "tick", (uint64_t)enf_world_tick(shot->viewer->world));
+    enf_report_count(report, "objects", shot->viewer->map.movers_count);
+    viewer_report_dbv(shot->viewer, report, "dbv");
 }
 
 static EnfResult save_stats(const Shot *shot, EnfError *error) {
@@ -208,9 +233,15 @@ static void print_summary(const Shot *shot) {
     if (shot->viewer->options->quiet) {
         return;
     }
-    fprintf(stderr, "eye in %s: %u cells, %u clusters, %u triangles in %u batches; visibility %.1f us, drawing %.2f ms (%s)\n",
-            viewer_cell_name(shot->viewer, shot->cell), set->cell_count, shot->list->cluster_count, shot->list->triangle_count,
-            shot->list->batch_count, shot->vis_us, shot->frame_ms, enf_context_name(shot->viewer->context));
+    fprintf(stderr,
+            "eye in %s: %u cells, %u clusters, %u objects, %u triangles in %u batches; visibility %.1f us, drawing %.2f ms "
+            "(%s)\n",
+            viewer_cell_name(shot->viewer, shot->cell), set->cell_count, shot->list->cluster_count, shot->list->mover_count,
+            shot->list->triangle_count, shot->list->batch_count, shot->vis_us, shot->frame_ms,
+            enf_context_name(shot->viewer->context));
+    if (shot->viewer->options->debug & DEBUG_DBV && shot->viewer->dbv) {
+        overlay_print_legend(shot->viewer);
+    }
     if (set->counters.outside) {
         fprintf(stderr, "enfview: the eye is in no cell: everything in the picture's pyramid was drawn\n");
     }

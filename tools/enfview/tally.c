@@ -39,6 +39,7 @@ void tally_add(Tally *tally, const Measure *measure) {
     tally->cells += measure->cells;
     tally->clusters += measure->clusters;
     tally->clusters_visible += measure->clusters_visible;
+    tally->movers += measure->movers;
     tally->lost_pixels += measure->lost_pixels;
     tally->lost_views += measure->lost_pixels > 0;
 }
@@ -81,7 +82,7 @@ static double mean(uint64_t sum, uint32_t count) {
     return count ? (double)sum / (double)count : 0.0;
 }
 
-void tally_print_summary(Tally *tally, bool pictures) {
+void tally_print_summary(Tally *tally, const Viewer *viewer, bool pictures) {
     EnfReport line = {0};
     uint32_t n = tally->view_count;
     enf_report_object(&line, NULL);
@@ -103,6 +104,11 @@ void tally_print_summary(Tally *tally, bool pictures) {
     }
     enf_report_number(&line, "vis_us_median", viewer_quantile(tally->vis_us, n, 0.5));
     enf_report_number(&line, "vis_us_p99", viewer_quantile(tally->vis_us, n, 0.99));
+    if (viewer->map.movers_count > 0) {
+        enf_report_count(&line, "objects", viewer->map.movers_count);
+        enf_report_number(&line, "objects_drawn_mean", mean(tally->movers, n));
+        viewer_report_dbv(viewer, &line, "dbv");
+    }
     enf_report_end_object(&line);
     printf("%s\n", line.failed ? "{}" : line.text);
     enf_report_free(&line);

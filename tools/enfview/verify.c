@@ -11,7 +11,7 @@ enum { REPORTED_LOSSES = 10 };
 typedef struct Proof {
     Viewer *viewer;
     uint8_t *color_all, *color, *ids_all, *ids;
-    uint32_t *seen;
+    uint32_t *seen; /* by cluster */
     uint32_t stamp, reported;
 } Proof;
 
@@ -45,7 +45,7 @@ static double draw_frame(Proof *proof, EnfVis *vis, EnfDraw *draw, const EnfView
     enf_gl_target_bind(viewer->target, ENF_RENDER_COLOR);
     viewer->finish();
     double start = viewer_now_us();
-    *list = enf_draw_build(draw, enf_vis_run(vis, &viewer->portals, view), ENFVIEW_NEAR, NULL, 1.0);
+    *list = enf_draw_build(draw, enf_vis_run(vis, &viewer->portals, view), ENFVIEW_NEAR, viewer->world, 1.0);
     enf_gl_draw(viewer->gl, *list, ENF_RENDER_COLOR);
     viewer->finish();
     return (viewer_now_us() - start) * 1e-3;
@@ -67,7 +67,7 @@ static uint32_t count_visible(Proof *proof) {
     proof->stamp++;
     for (size_t i = 0; i < proof->viewer->picture_size; i += 4) {
         uint32_t id = id_at(proof->ids_all, i);
-        if (id != last && id != 0 && proof->seen[id - 1] != proof->stamp) {
+        if (id != last && id != 0 && id <= proof->viewer->map.clusters_count && proof->seen[id - 1] != proof->stamp) {
             proof->seen[id - 1] = proof->stamp;
             count++;
         }
@@ -100,7 +100,13 @@ static void report_loss(Proof *proof, const Walk *walk, size_t first) {
     size_t pixel = first / 4, width = proof->viewer->options->size[0];
     uint32_t id = id_at(proof->ids_all, first);
     const char *node = "", *cell = "nothing";
-    if (id) {
+    if (id > map->clusters_count) {
+        uint32_t object = id - map->clusters_count - 1;
+        fprintf(stderr, "enfview: row %u, tick %lld: what is lost is object %u\n", walk->row,
+                (long long)enf_world_tick(proof->viewer->world), object);
+        node = object < map->movers_count ? enf_map_string(map, map->entities[map->movers[object].entity].name) : "";
+        cell = "what moves";
+    } else if (id) {
         node = enf_map_string(map, map->clusters[id - 1].node);
         cell = viewer_cell_name(proof->viewer, map->clusters[id - 1].cell);
     }
@@ -118,6 +124,7 @@ static void draw_both(Proof *proof, Walk *walk, const EnfView *view, Measure *me
     EnfView everything = *view;
     everything.cull = ENF_CULL_NONE;
     everything.grain = ENF_GRAIN_OBJECTS;
+    everything.dbv = NULL;
     const EnfDrawList *list_all = NULL, *list = NULL;
     for (uint32_t turn = 0; turn < 2; turn++) {
         bool culled = (turn + walk->row / viewer->options->every) % 2 == 0;
@@ -129,6 +136,7 @@ static void draw_both(Proof *proof, Walk *walk, const EnfView *view, Measure *me
     draw_ids(proof, list, proof->ids);
     draw_ids(proof, list_all, proof->ids_all);
     measure->clusters = list->cluster_count;
+    measure->movers = list->mover_count;
 }
 
 static double ratio_of(const Measure *measure) {
@@ -148,6 +156,7 @@ static void confirm_best(Proof *proof, Walk *walk, const EnfView *view, const Ta
 
 static void verify_view(Proof *proof, Walk *walk, Tally *tally) {
     Viewer *viewer = proof->viewer;
+    life_run(viewer, walk_tick(walk));
     EnfView view = viewer_view(viewer, &walk->pose, walk->cell);
     Measure measure = {0};
     draw_both(proof, walk, &view, &measure);
@@ -181,7 +190,7 @@ int run_verify(Viewer *viewer) {
         while (walk_step(&walk)) {
             verify_view(&proof, &walk, &tally);
         }
-        tally_print_summary(&tally, true);
+        tally_print_summary(&tally, viewer, true);
     }
     bool lost = tally.lost_pixels > 0;
     tally_close(&tally);

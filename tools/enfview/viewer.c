@@ -18,7 +18,8 @@ EnfResult viewer_open(Viewer *viewer, const Options *options, EnfError *error) {
         (result = enf_draw_create(&viewer->draw, &viewer->map, NULL, error)) != ENF_OK) {
         return result;
     }
-    return enf_draw_create(&viewer->draw_all, &viewer->map, NULL, error);
+    result = enf_draw_create(&viewer->draw_all, &viewer->map, NULL, error);
+    return result == ENF_OK ? life_open(viewer, error) : result;
 }
 
 EnfResult viewer_open_pictures(Viewer *viewer, EnfError *error) {
@@ -43,6 +44,7 @@ void viewer_close(Viewer *viewer) {
     enf_gl_target_destroy(viewer->target);
     enf_gl_destroy(viewer->gl);
     enf_context_destroy(viewer->context);
+    life_close(viewer);
     enf_draw_destroy(viewer->draw_all);
     enf_draw_destroy(viewer->draw);
     enf_vis_destroy(viewer->vis_all);
@@ -65,6 +67,7 @@ EnfView viewer_view(const Viewer *viewer, const Pose *pose, uint32_t cell) {
     view.cull = (EnfCull)viewer->options->cull;
     view.window = (EnfWindowMode)viewer->options->window;
     view.grain = (EnfGrain)viewer->options->grain;
+    view.dbv = viewer->dbv;
     return view;
 }
 

@@ -4,6 +4,8 @@
 
 #include <enfilade/gl.h>
 
+#include "common/report.h"
+
 /** Near plane of every picture, metres: nearer than any eye comes to a wall. Small, since what it cuts away in front would
  *  show what is behind (PITFALLS 2). */
 #define ENFVIEW_NEAR 0.02
@@ -15,7 +17,13 @@ typedef struct Pose {
 } Pose;
 
 /** Extra drawings, or-ed. */
-enum { DEBUG_PORTALS = 1, DEBUG_CELLS = 2, DEBUG_WINDOWS = 4, DEBUG_KD = 8 };
+enum { DEBUG_PORTALS = 1, DEBUG_CELLS = 2, DEBUG_WINDOWS = 4, DEBUG_KD = 8, DEBUG_DBV = 16 };
+
+/** --dbv: no index, or one of an EnfDbvPolicy (number - 1). */
+enum { DBV_OFF };
+
+/** --doors: they stay shut; they open and shut in turn; and close their portals while they are shut. */
+enum { DOORS_REST, DOORS_SWING, DOORS_CLOSE };
 
 typedef struct Options {
     const char *map, *output, *ids, *stats, *path, *cells, *cell_name;
@@ -24,7 +32,9 @@ typedef struct Options {
     double roll_deg, fov_y_deg;
     uint32_t size[2];
     int cull, window, grain, context; /**< EnfCull, EnfWindowMode, EnfGrain, EnfContextKind */
+    int dbv, doors;
     uint32_t every, debug;
+    double tick; /**< of the world, in the one view or at the path's time 0 */
 } Options;
 
 typedef struct Viewer {
@@ -33,7 +43,11 @@ typedef struct Viewer {
     EnfPortals portals;
     EnfVis *vis, *vis_all; /**< of the chosen traversal, and of everything */
     EnfDraw *draw, *draw_all;
-    EnfContext *context; /**< NULL until viewer_open_pictures */
+    EnfWorld *world;               /**< the map's movers */
+    EnfDbvIndex *dbv;              /**< over them, or NULL: --dbv off, or nothing moves */
+    EnfDbvCounters frame_counters; /**< of the frame that --stats tells of */
+    uint64_t frame_evaluated;      /**< motions evaluated in it; UINT64_MAX: none was counted */
+    EnfContext *context;           /**< NULL until viewer_open_pictures */
     EnfGl *gl;
     EnfGlTarget *target;
     void (*finish)(void); /**< glFinish */
@@ -52,6 +66,15 @@ EnfCamera viewer_camera(const Viewer *viewer, const Pose *pose);
 EnfView viewer_view(const Viewer *viewer, const Pose *pose, uint32_t cell);
 /** The cell of an eye: --cell, else by location. RANGE if --cell names none. */
 EnfResult viewer_cell(const Viewer *viewer, EnfVec3 eye_ws, uint32_t *cell, EnfError *error);
+/** life.c: the world with the map's movers in it, and the index over it. */
+EnfResult life_open(Viewer *viewer, EnfError *error);
+void life_close(Viewer *viewer);
+/** Lets the world run to `tick`, if that is ahead, with doors as --doors says. */
+void life_run(Viewer *viewer, int64_t tick);
+
+/** The counters of volumes as an object named `key`: of one frame, if one was counted, and of all; nothing without an index. */
+void viewer_report_dbv(const Viewer *viewer, EnfReport *report, const char *key);
+
 /** A cell's name, "(outside)" for none. */
 const char *viewer_cell_name(const Viewer *viewer, uint32_t cell);
 

@@ -1,6 +1,7 @@
 /* Makes poses and cells from the rows of a path. */
 #include "enfview/walk.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "common/report.h"
@@ -70,6 +71,10 @@ bool walk_step(Walk *walk) {
         }
     }
     return false;
+}
+
+int64_t walk_tick(const Walk *walk) {
+    return llround(walk->viewer->options->tick + walk->time * ENF_TICK_RATE);
 }
 
 uint32_t walk_view_count(const Walk *walk) {

@@ -24,6 +24,8 @@ EnfResult walk_open(Walk *walk, const Viewer *viewer, EnfError *error);
 /** Goes on to the next row that --every takes; false at the end. Every row between is walked, too: cells are tracked by
  *  the portals that the way crosses. */
 bool walk_step(Walk *walk);
+/** The world's tick at the row that walk_step gave: sixty a second from --tick on. */
+int64_t walk_tick(const Walk *walk);
 /** Rows that walk_step will give in all. */
 uint32_t walk_view_count(const Walk *walk);
 /** Writes the line of --cells for what is seen from here. */

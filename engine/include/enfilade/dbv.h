@@ -78,6 +78,18 @@ EnfDbvCounters enf_dbv_total_counters(const EnfDbvIndex *index);
 /** The volume of an object (of several boxes, the first) and its expiry tick, for debug views; false if it hangs in no cell. */
 bool enf_dbv_volume(const EnfDbvIndex *index, uint32_t object, EnfBox3f *volume, int64_t *expiry_tick);
 
+/** What the last frame did with an object: for debug views. EXPIRED: its volume ended unseen, and a new one was made. EXPOSED: a window
+ *  showed the volume, but not the object. */
+typedef enum EnfDbvState {
+    ENF_DBV_STATE_NONE, /**< not alive, or not taken in yet */
+    ENF_DBV_STATE_ASLEEP,
+    ENF_DBV_STATE_EXPIRED,
+    ENF_DBV_STATE_EXPOSED,
+    ENF_DBV_STATE_DRAWN
+} EnfDbvState;
+/** @cost the objects that expired in the frame. */
+EnfDbvState enf_dbv_state(const EnfDbvIndex *index, uint32_t object);
+
 /** Memory of the index, bytes; without the world's. */
 size_t enf_dbv_bytes(const EnfDbvIndex *index);
 
