@@ -524,7 +524,7 @@ static void failure_is_sticky(void **state) {
     EnfError error;
     const EnfInput input = {0, 0, 0, 0, 0};
     if (access("/dev/full", W_OK) != 0) {
-        print_message("no /dev/full\n");
+        printf("no /dev/full\n");
         skip();
     }
     EnfResult result = enf_recorder_create(&recorder, &header, "/dev/full", NULL, &error);
