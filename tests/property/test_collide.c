@@ -1,0 +1,413 @@
+/* Swept capsules against every triangle: none ends inside a surface, none passes one, none stops short, at up to 300 m/s; in the
+ * palace, in real levels, in rooms, and in soups of random polygons. */
+#include "harness/purse.h"
+#include "harness/solid_oracle.h"
+#include "scenes/maker.h"
+#include "scenes/rooms.h"
+#include "world/collide_internal.h"
+
+#include <stdio.h>
+
+/* Metres that rounding may take: positions of 10 km round by 2^-39, the search ends at 2^-24. */
+#define ROUNDING 0x1p-22
+#define SPEED_MAX 300.0
+
+/* A level under test and what has been seen in it. */
+typedef struct Ground {
+    const char *name;
+    const EnfMap *map;
+    EnfCollider *collider;
+    Oracle oracle;
+    EnfBox3 box; /* to throw bodies into */
+    EnfTestRng rng;
+    uint64_t moves, hits, ended_inside, tunnels, not_finite, too_near, stopped_short;
+    double travelled;
+} Ground;
+
+static void ground_open(Ground *g, const char *name, const EnfMap *map, uint64_t stream) {
+    memset(g, 0, sizeof *g);
+    g->name = name;
+    g->map = map;
+    g->rng = enf_test_rng(stream);
+    assert_int_equal(enf_collider_create(&g->collider, map, NULL, NULL, NULL), ENF_OK);
+    oracle_build(&g->oracle, map);
+    g->box = g->oracle.bounds;
+}
+
+static void ground_close(Ground *g) {
+    printf("%s: %llu moves, %.0f m, %llu hits; %llu ended inside, %llu tunnels, %llu not finite, %llu too near, %llu stopped "
+           "short\n",
+           g->name, (unsigned long long)g->moves, g->travelled, (unsigned long long)g->hits,
+           (unsigned long long)g->ended_inside, (unsigned long long)g->tunnels, (unsigned long long)g->not_finite,
+           (unsigned long long)g->too_near, (unsigned long long)g->stopped_short);
+    assert_true(g->moves > 0);
+    assert_int_equal(g->ended_inside + g->tunnels + g->not_finite + g->too_near + g->stopped_short, 0);
+    enf_collider_destroy(g->collider);
+    oracle_free(&g->oracle);
+}
+
+static EnfVec3 random_way(EnfTestRng *rng) {
+    for (;;) {
+        EnfVec3 v = enf_v3(enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1));
+        double square = enf_dot(v, v);
+        if (square > 0.01 && square < 1.0) {
+            return enf_scale(v, 1.0 / sqrt(square));
+        }
+    }
+}
+
+/* A place where the capsule touches nothing; false if a hundred throws found none. */
+static bool throw_in(Ground *g, const EnfCapsule *capsule, EnfVec3 *at) {
+    for (int i = 0; i < 100; i++) {
+        *at = enf_v3(enf_test_double(&g->rng, g->box.min.x, g->box.max.x), enf_test_double(&g->rng, g->box.min.y, g->box.max.y),
+                     enf_test_double(&g->rng, g->box.min.z, g->box.max.z));
+        if (!enf_collide_overlap(g->collider, capsule, *at, NULL) && enf_map_locate(g->map, *at) != ENF_NONE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- one sweep, in full ----------------------------------------------------------------------------------------- */
+
+static EnfBox3 swept_box(const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta) {
+    return enf_box3_union(enf_capsule_box(capsule, from, 0.01), enf_capsule_box(capsule, enf_add(from, delta), 0.01));
+}
+
+/* Every triangle near: how near the free part of the way comes; and whether the whole way would have been stopped at all. */
+static void check_sweep(Ground *g, const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta, const EnfSweepHit *hit) {
+    const Oracle *o = &g->oracle;
+    EnfVec3 way = enf_scale(delta, hit->t);
+    double contact = capsule->radius + 0.5 * ENF_TOL_SKIN;
+    bool stopped = false, at_hit = false;
+    for (uint32_t i = 0; i < o->near_count; i++) {
+        const OracleTriangle *t = &o->triangles[o->near[i]];
+        double where, start = oracle_distance(t, capsule, from), least = oracle_least(t, capsule, from, way, &where);
+        if (least < fmin(start, contact) - ROUNDING) {
+            g->too_near++;
+        }
+        double whole = oracle_least(t, capsule, from, delta, &where);
+        stopped = stopped || (whole < contact - ROUNDING && where > 0.0 && whole < start - ROUNDING);
+        if (t->cluster == hit->cluster && t->triangle == hit->triangle) {
+            double end = oracle_distance(t, capsule, enf_add(from, way));
+            at_hit = end <= capsule->radius + ENF_TOL_SKIN + ROUNDING && whole <= contact + ROUNDING;
+        }
+    }
+    bool met = hit->cluster != ENF_NONE;
+    g->stopped_short += met && !at_hit;
+    g->tunnels += stopped && !met;
+}
+
+/* What is checked of each move, of some, and of a few: the ends; the whole way; the same with every triangle of the map. */
+static void check_move(Ground *g, const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta, const EnfSweepHit *hit) {
+    EnfVec3 to = enf_add(from, enf_scale(delta, hit->t));
+    bool full = g->moves % 32 == 0, every = g->moves % 4096 == 0;
+    g->moves++;
+    g->hits += hit->t < 1.0;
+    g->travelled += enf_length(enf_sub(to, from));
+    if (!enf_v3_finite(to) || !(hit->t >= 0.0 && hit->t <= 1.0) || !enf_v3_finite(hit->normal)) {
+        g->not_finite++;
+        return;
+    }
+    oracle_near(&g->oracle, full ? swept_box(capsule, from, delta) : swept_box(capsule, from, enf_sub(to, from)), every);
+    g->ended_inside += oracle_depth(&g->oracle, capsule, to) > ROUNDING;
+    g->tunnels += oracle_tunnels(&g->oracle, capsule, from, to);
+    if (full) {
+        check_sweep(g, capsule, from, delta, hit);
+    }
+}
+
+/* On and on from where it was stopped, mostly at surfaces; thrown in anew now and then. */
+static void fly_about(Ground *g, uint32_t moves) {
+    EnfCapsule capsule = {0.3, 1.75};
+    EnfVec3 at = enf_v3(0.0, 0.0, 0.0);
+    bool in = false;
+    for (uint32_t i = 0; i < moves; i++) {
+        if (!in || enf_test_chance(&g->rng, 50)) {
+            capsule.radius = enf_test_double(&g->rng, 0.1, 0.5);
+            capsule.height = capsule.radius * 2.0 + (enf_test_chance(&g->rng, 8) ? 0.0 : enf_test_double(&g->rng, 0.0, 1.5));
+            in = throw_in(g, &capsule, &at);
+            if (!in) {
+                continue;
+            }
+        }
+        double speed = SPEED_MAX * (enf_test_chance(&g->rng, 2) ? 1.0 : 0.02) * enf_test_double(&g->rng, 0.0, 1.0);
+        EnfVec3 way = random_way(&g->rng);
+        way = enf_test_chance(&g->rng, 6) ? enf_v3(way.x, 0.0, way.z) : way;
+        EnfVec3 delta = enf_scale(way, speed / ENF_TICK_RATE);
+        EnfSweepHit hit;
+        (void)enf_collide_sweep(g->collider, &capsule, at, delta, &hit);
+        check_move(g, &capsule, at, delta, &hit);
+        at = enf_add(at, enf_scale(delta, hit.t));
+    }
+}
+
+/* ---- bodies ----------------------------------------------------------------------------------------------------- */
+
+static void check_body(Ground *g, const EnfCharacter *body, const EnfCharacterReport *report) {
+    EnfCapsule capsule = enf_character_capsule(body);
+    g->moves++;
+    if (!enf_v3_finite(body->position) || !enf_v3_finite(body->velocity)) {
+        g->not_finite++;
+        return;
+    }
+    EnfCapsule low = {capsule.radius, body->def.crouch_height}; /* it may have grown since */
+    for (uint32_t i = 0; i + 1 < report->path_count; i++) {
+        EnfVec3 from = report->path[i], to = report->path[i + 1];
+        g->travelled += enf_length(enf_sub(to, from));
+        oracle_near(&g->oracle, swept_box(&low, from, enf_sub(to, from)), false);
+        g->tunnels += oracle_tunnels(&g->oracle, &low, from, to);
+        g->ended_inside += oracle_depth(&g->oracle, &low, to) > ROUNDING;
+    }
+    oracle_near(&g->oracle, swept_box(&capsule, body->position, enf_v3(0.0, 0.0, 0.0)), g->moves % 4096 == 0);
+    g->ended_inside += oracle_depth(&g->oracle, &capsule, body->position) > ROUNDING;
+}
+
+/* A body at the mercy of dice: keys, and blows that throw it at up to 300 m/s. */
+static EnfCharacterInput random_input(EnfTestRng *rng, const EnfCharacterInput *before) {
+    if (!enf_test_chance(rng, 10)) {
+        return *before;
+    }
+    EnfVec3 way = random_way(rng);
+    EnfCharacterInput input = {way, enf_test_chance(rng, 3), enf_test_chance(rng, 4), enf_test_chance(rng, 2),
+                               enf_test_chance(rng, 6) ? ENF_CHARACTER_FLY : ENF_CHARACTER_WALK};
+    return input;
+}
+
+static void walk_about(Ground *g, uint32_t ticks) {
+    EnfCharacterDef def = enf_character_def_default();
+    EnfCharacter body;
+    EnfCharacterReport report;
+    EnfCapsule capsule = {def.radius, def.height};
+    EnfCharacterInput input = {{0.0, 0.0, 0.0}, false, false, false, ENF_CHARACTER_WALK};
+    bool in = false;
+    for (uint32_t i = 0; i < ticks; i++) {
+        if (!in || enf_test_chance(&g->rng, 200)) {
+            EnfVec3 at;
+            in = throw_in(g, &capsule, &at) && enf_character_spawn(&body, g->collider, &def, at);
+            if (!in) {
+                continue;
+            }
+        }
+        input = random_input(&g->rng, &input);
+        if (enf_test_chance(&g->rng, 5)) {
+            body.velocity = enf_scale(random_way(&g->rng), enf_test_double(&g->rng, 0.0, SPEED_MAX));
+            body.flags &= ~(uint32_t)ENF_CHARACTER_GROUNDED;
+        }
+        enf_character_move(&body, g->collider, &input, &report);
+        g->hits += (report.moved & ENF_MOVED_BLOCKED) != 0;
+        g->ended_inside += (report.moved & ENF_MOVED_RELOCATED) != 0; /* who never is inside needs no way out */
+        check_body(g, &body, &report);
+    }
+}
+
+/* ---- levels ----------------------------------------------------------------------------------------------------- */
+
+static void try_level(const char *name, const char *path, uint32_t moves, uint64_t stream) {
+    EnfMap map;
+    EnfError error = {0};
+    char command[2048];
+    const char *out = enf_test_temp_path("collide.enfmap");
+    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2>&1", ENF_BIN_DIR, path, out);
+    assert_int_equal(enf_test_shell(command), 0);
+    if (enf_map_read(&map, out, NULL, &error) != ENF_OK) {
+        fail_msg("%s: %s", name, error.message);
+    }
+    Ground g;
+    ground_open(&g, name, &map, stream);
+    fly_about(&g, moves);
+    walk_about(&g, moves / 4);
+    ground_close(&g);
+    enf_map_free(&map);
+}
+
+static void test_palace(void **state) {
+    (void)state;
+    try_level("palace", enf_test_source_path("assets/palace/palace.glb"), enf_test_rounds(60000, 1500000), 1);
+}
+
+static void test_freedoom(void **state) {
+    (void)state;
+    static const char *const names[] = {"MAP01_rooms", "E1M1_rooms", "E1M1_sector", "E3M8_rooms", "MAP26_rooms"};
+    for (int i = 0; i < 5; i++) {
+        char relative[64];
+        snprintf(relative, sizeof relative, "freedoom/%s.glb", names[i]);
+        try_level(names[i], enf_test_data(relative), enf_test_rounds(60000, 600000), 10 + (uint64_t)i);
+    }
+}
+
+/* ---- made levels ------------------------------------------------------------------------------------------------ */
+
+static void test_rooms(void **state) {
+    (void)state;
+    EnfRoomsDef def = enf_rooms_def_default();
+    EnfRooms rooms;
+    EnfError error = {0};
+    def.origin = enf_v3(10000.0, -500.0, 3000.0);
+    def.seed = enf_test_seed();
+    assert_true(enf_rooms_create(&rooms, &def, &error));
+    Ground g;
+    ground_open(&g, "rooms", rooms.map, 20);
+    fly_about(&g, enf_test_rounds(200000, 2000000));
+    walk_about(&g, enf_test_rounds(50000, 500000));
+    ground_close(&g);
+    enf_rooms_destroy(&rooms);
+}
+
+static EnfVec3 on_grid(EnfVec3 p) {
+    return enf_grid_point(enf_grid_snap(p));
+}
+
+/* A closed box full of triangles of all sizes, slivers and needles among them, owned by cells with origins of their own. */
+static EnfMaker *make_soup(EnfTestRng *rng, uint32_t count, EnfVec3 origin) {
+    EnfMaker *maker = enf_maker_create();
+    uint32_t cells[3];
+    assert_non_null(maker);
+    for (int i = 0; i < 3; i++) {
+        EnfVec3 at = enf_add(origin, enf_v3((double)i * 7.0, 0.0, 0.0));
+        assert_non_null(enf_maker_cell(maker, i == 0 ? "soup-room" : "bowl-room", at, &cells[i]));
+        enf_maker_box(maker, cells[i], 0, (EnfBox3){at, enf_add(at, enf_v3(7.0, 8.0, 10.0))}, true);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t owner = enf_test_below(rng, 3);
+        EnfVec3 low = enf_add(origin, enf_v3((double)owner * 7.0, 0.0, 0.0)), corner[3];
+        EnfVec3 middle = enf_add(low,
+                                 enf_v3(enf_test_double(rng, 0, 7), enf_test_double(rng, 0, 8), enf_test_double(rng, 0, 10)));
+        double size = enf_test_chance(rng, 3) ? 3.0 : 0.5, thin = enf_test_chance(rng, 4) ? 0.001 : 1.0;
+        EnfVec3 a = enf_scale(random_way(rng), size), b = enf_scale(random_way(rng), size * thin);
+        corner[0] = on_grid(middle);
+        corner[1] = on_grid(enf_add(middle, a));
+        corner[2] = on_grid(enf_add(middle, enf_add(b, enf_scale(a, enf_test_double(rng, 0, 1)))));
+        enf_maker_group(maker);
+        enf_maker_polygon(maker, cells[owner], 0, corner, 3);
+    }
+    return maker;
+}
+
+static void test_soups(void **state) {
+    (void)state;
+    static const uint32_t counts[] = {20, 100, 300};
+    for (int i = 0; i < 6; i++) {
+        EnfTestRng rng = enf_test_rng(30 + (uint64_t)i);
+        EnfMaker *maker = make_soup(&rng, counts[i % 3], i < 3 ? enf_v3(0, 0, 0) : enf_v3(-65536.0, 0.0, 9000.5));
+        EnfError error = {0};
+        const EnfMap *map = enf_maker_finish(maker, &error);
+        if (map == NULL) {
+            fail_msg("%s", error.message);
+        }
+        Ground g;
+        ground_open(&g, "soup", map, 40 + (uint64_t)i);
+        fly_about(&g, enf_test_rounds(60000, 600000));
+        walk_about(&g, enf_test_rounds(10000, 100000));
+        ground_close(&g);
+        enf_maker_destroy(maker);
+    }
+}
+
+/* ---- distance --------------------------------------------------------------------------------------------------- */
+
+/* The distance that all rests on, against the general formulas; and its normal, by moving a little. */
+static void test_distance(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(50);
+    for (uint32_t i = 0; i < enf_test_rounds(200000, 2000000); i++) {
+        EnfNearTriangle t;
+        OracleTriangle o;
+        double size = enf_test_chance(&rng, 4) ? 0.01 : 2.0;
+        EnfVec3 middle = enf_scale(random_way(&rng), enf_test_double(&rng, 0, 3));
+        memset(&t, 0, sizeof t);
+        for (int k = 0; k < 3; k++) {
+            EnfVec3 p = enf_add(middle, enf_scale(random_way(&rng), size));
+            t.corner[k] = o.corner[k] = on_grid(k == 2 && enf_test_chance(&rng, 20) ? middle : p);
+        }
+        t.normal = enf_normalize(enf_cross(enf_sub(t.corner[1], t.corner[0]), enf_sub(t.corner[2], t.corner[0])));
+        EnfCapsule capsule = {0.25, 0.5 + (enf_test_chance(&rng, 3) ? 0.0 : enf_test_double(&rng, 0, 2))};
+        EnfNearest nearest;
+        EnfVec3 zero = enf_v3(0.0, 0.0, 0.0);
+        enf_nearest(&t, &capsule, zero, zero, &nearest);
+        double expected = oracle_distance(&o, &capsule, zero);
+        if (!(fabs(nearest.distance - expected) < 1e-9)) {
+            fail_msg("triangle %u: %.12g, but %.12g", i, nearest.distance, expected);
+        }
+        if (nearest.distance > 0.01) { /* a step along the normal leaves by its length: the gradient of a distance */
+            double step = 1e-6, after = oracle_distance(&o, &capsule, enf_scale(nearest.normal, step));
+            assert_true(fabs(after - expected - step) < 1e-9);
+        }
+    }
+}
+
+/* ---- bits and memory -------------------------------------------------------------------------------------------- */
+
+static uint64_t dice_walk(EnfCollider *collider, const EnfMap *map, EnfTestRng rng, uint32_t ticks) {
+    EnfCharacterDef def = enf_character_def_default();
+    EnfCharacter body;
+    EnfCharacterInput input = {{0.0, 0.0, 0.0}, false, false, false, ENF_CHARACTER_WALK};
+    uint64_t hash = ENF_HASH_START;
+    (void)map;
+    enf_collider_reset(collider);
+    (void)enf_character_spawn(&body, collider, &def, enf_v3(3.0, 3.0, 5.0));
+    for (uint32_t i = 0; i < ticks; i++) {
+        input = random_input(&rng, &input);
+        if (enf_test_chance(&rng, 60)) {
+            body.velocity = enf_scale(random_way(&rng), enf_test_double(&rng, 0.0, SPEED_MAX));
+        }
+        enf_character_move(&body, collider, &input, NULL);
+        hash = enf_hash64(hash, &body, sizeof body);
+    }
+    return hash;
+}
+
+/* The same dice give the same bits on every compiler and machine, whatever was gathered before; and when warm, no memory. */
+static void test_same_bits_and_no_heap(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng_fixed(1, 1);
+    EnfMaker *maker = make_soup(&rng, 60, enf_v3(0, 0, 0));
+    EnfError error = {0};
+    const EnfMap *map = enf_maker_finish(maker, &error);
+    assert_non_null(map);
+    Purse purse = {0, 1000000};
+    EnfAllocator allocator = {purse_resize, &purse};
+    EnfCollider *collider, *other;
+    assert_int_equal(enf_collider_create(&collider, map, NULL, &allocator, &error), ENF_OK);
+    assert_int_equal(enf_collider_create(&other, map, NULL, NULL, &error), ENF_OK);
+    uint64_t hash = dice_walk(collider, map, rng, 36000);
+    purse.budget = 0; /* a call to the heap would fail now, and the sweep be refused: other bits */
+    assert_true(dice_walk(collider, map, rng, 36000) == hash);
+    EnfCapsule capsule = {0.2, 1.0};
+    EnfSweepHit hit;
+    (void)enf_collide_sweep(other, &capsule, enf_v3(1, 1, 1), enf_v3(19, 6, 8), &hit);
+    assert_true(dice_walk(other, map, rng, 36000) == hash);
+    printf("hash of 36000 ticks: %016llx\n", (unsigned long long)hash);
+    enf_collider_destroy(collider);
+    assert_int_equal(purse.lent, 0);
+    enf_collider_destroy(other);
+    enf_maker_destroy(maker);
+}
+
+/* Out of memory at every call: refused, and nothing is lost or leaks. */
+static void test_without_memory(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng_fixed(2, 2);
+    EnfMaker *maker = make_soup(&rng, 10, enf_v3(0, 0, 0));
+    EnfError error = {0};
+    const EnfMap *map = enf_maker_finish(maker, &error);
+    assert_non_null(map);
+    for (int budget = 0; budget < 32; budget++) {
+        Purse purse = {0, budget};
+        EnfAllocator allocator = {purse_resize, &purse};
+        EnfCollider *collider;
+        EnfResult result = enf_collider_create(&collider, map, NULL, &allocator, &error);
+        assert_true(result == ENF_OK || (result == ENF_ERROR_MEMORY && collider == NULL));
+        enf_collider_destroy(collider);
+        assert_int_equal(purse.lent, 0);
+    }
+    enf_maker_destroy(maker);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_distance),       cmocka_unit_test(test_soups),  cmocka_unit_test(test_rooms),
+    cmocka_unit_test(test_freedoom),       cmocka_unit_test(test_palace), cmocka_unit_test(test_same_bits_and_no_heap),
+    cmocka_unit_test(test_without_memory),
+};
+
+ENF_TEST_MAIN(tests)
