@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EVERY "update-all,flat,sweep,frustum,constant,adaptive,maximal,optimal,reach"
+#define EVERY "update-all,flat,sweep,plain,frustum,constant,adaptive,maximal,optimal,reach"
 
 MoversDef bench_movers_default(void) {
     MoversDef def;

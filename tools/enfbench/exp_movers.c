@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum Kind { KIND_INDEX, KIND_FRUSTUM, KIND_FLAT, KIND_SWEEP, KIND_NONE } Kind;
+typedef enum Kind { KIND_INDEX, KIND_FRUSTUM, KIND_FLAT, KIND_SWEEP, KIND_PLAIN, KIND_NONE } Kind;
 
 /* The techniques by the names that --set techniques= takes. */
 static const struct {
@@ -16,12 +16,13 @@ static const struct {
     EnfDbvUpdate update;
     uint32_t period; /* 0: the scene's */
 } techniques[] = {
-    {"zbuffer", KIND_NONE, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},    {"update-all", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"naive", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},   {"lca", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"flat", KIND_FLAT, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},       {"sweep", KIND_SWEEP, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"frustum", KIND_FRUSTUM, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1}, {"constant", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 0},
-    {"adaptive", KIND_INDEX, ENF_DBV_ADAPTIVE, ENF_DBV_LCA, 0},  {"maximal", KIND_INDEX, ENF_DBV_MAXIMAL, ENF_DBV_LCA, 0},
-    {"optimal", KIND_INDEX, ENF_DBV_OPTIMAL, ENF_DBV_LCA, 0},    {"reach", KIND_INDEX, ENF_DBV_REACH, ENF_DBV_LCA, 0},
+    {"zbuffer", KIND_NONE, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},   {"update-all", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"naive", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},  {"lca", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"flat", KIND_FLAT, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},      {"sweep", KIND_SWEEP, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"plain", KIND_PLAIN, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},    {"frustum", KIND_FRUSTUM, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"constant", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 0}, {"adaptive", KIND_INDEX, ENF_DBV_ADAPTIVE, ENF_DBV_LCA, 0},
+    {"maximal", KIND_INDEX, ENF_DBV_MAXIMAL, ENF_DBV_LCA, 0},   {"optimal", KIND_INDEX, ENF_DBV_OPTIMAL, ENF_DBV_LCA, 0},
+    {"reach", KIND_INDEX, ENF_DBV_REACH, ENF_DBV_LCA, 0},
 };
 enum { TECHNIQUES = sizeof techniques / sizeof *techniques };
 
@@ -31,6 +32,7 @@ typedef struct Runner {
     EnfWorld *world;
     EnfDbvIndex *index;
     Rival *rival;
+    Plain *plain;
     uint32_t *all; /* zbuffer: everything */
     double *times, spent_us;
     double drawn, lost, missed_frames;
@@ -44,6 +46,7 @@ static void close_runner(Runner *runner) {
         enf_world_destroy(runner->world);
     }
     bench_rival_destroy(runner->rival);
+    bench_plain_destroy(runner->plain);
     free(runner->all);
     free(runner->times);
 }
@@ -81,6 +84,9 @@ static bool open_runner(Runner *runner, uint32_t technique, const MoversScene *s
     case KIND_SWEEP:
         runner->rival = bench_rival_create(scene, techniques[technique].kind == KIND_SWEEP);
         return ok && runner->rival != NULL;
+    case KIND_PLAIN:
+        runner->plain = bench_plain_create(scene);
+        return ok && runner->plain != NULL;
     case KIND_NONE:
         runner->all = calloc(scene->def.movers + 1U, sizeof *runner->all);
         break;
@@ -118,6 +124,8 @@ static const uint32_t *find(const MoversScene *scene, Runner *runner, uint32_t f
         return bench_movers_windows(scene, set, windows)
                    ? bench_rival_frame(runner->rival, &scene->views[frame], windows, (int64_t)frame, count)
                    : runner->all;
+    case KIND_PLAIN:
+        return bench_plain_frame(runner->plain, &view, (int64_t)frame, count);
     case KIND_NONE:
         view.cull = ENF_CULL_NONE;
         (void)enf_vis_run(scene->vis, &scene->portals, &view);
@@ -164,7 +172,7 @@ static bool turn(const MoversScene *scene, Runner *runner, uint32_t frame, Mover
     runner->spent_us += spent;
     runner->drawn += (double)count;
     runner->hash = enf_hash64(runner->hash, list, count * sizeof *list);
-    if (frame % scene->def.check == 0) {
+    if (frame % scene->def.check == 0 && runner->plain == NULL) { /* what `plain` lists is its own affair */
         uint32_t *copy = malloc((count + 1U) * sizeof *copy);
         if (copy == NULL) {
             return false;
@@ -210,7 +218,7 @@ static void add_row(BenchRun *run, const char *experiment, const char *name, con
              def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors,
              def->polygons);
     row.frames = runner->frames;
-    row.lost_objects = runner->lost;
+    row.lost_objects = runner->plain == NULL ? runner->lost : -1.0;
     row.objects = runner->drawn / (double)runner->frames;
     row.hash = runner->hash;
     add_counters(scene, runner, &row);

@@ -94,6 +94,20 @@ void bench_rival_destroy(Rival *rival);
 const uint32_t *bench_rival_frame(Rival *rival, const EnfView *view, const MoversWindows *windows, int64_t tick,
                                   uint32_t *count);
 
+/** What `flat` knows after it has moved everything: positions, and the list of each room (ENF_NONE ends it). */
+typedef struct RivalLists {
+    const float *x, *y, *z;
+    const uint32_t *heads, *next;
+} RivalLists;
+RivalLists bench_rival_lists(Rival *rival, int64_t tick);
+
+/* ---- plain.c: the least that finding can cost ---- */
+typedef struct Plain Plain;
+Plain *bench_plain_create(const MoversScene *scene);
+void bench_plain_destroy(Plain *plain);
+/** The objects that it thinks are shown, in no order. */
+const uint32_t *bench_plain_frame(Plain *plain, const EnfView *view, int64_t tick, uint32_t *count);
+
 /** Knobs that every experiment on movers has, over what `def` says. False after a message. */
 bool bench_movers_knobs(BenchRun *run, MoversDef *def);
 MoversDef bench_movers_default(void);

@@ -347,6 +347,13 @@ static void look_everywhere(Rival *rival, const EnfView *view, const MoversWindo
     }
 }
 
+RivalLists bench_rival_lists(Rival *rival, int64_t tick) {
+    move_all(rival, tick);
+    (void)wide_bin(rival);
+    RivalLists lists = {rival->x, rival->y, rival->z, rival->heads, rival->next};
+    return lists;
+}
+
 /* ---- both ------------------------------------------------------------------------------------------------------- */
 
 static int ascending(const void *a, const void *b) {
