@@ -83,15 +83,6 @@ bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b) {
 
 /* ---- rounding outward ------------------------------------------------------------------------------------------- */
 
-/* The next float below a finite one: as nextafterf(x, -FLT_MAX), without a call. */
-static inline float below(float x) {
-    uint32_t bits = 0;
-    memcpy(&bits, &x, sizeof bits);
-    bits = x > 0.0F ? bits - 1 : x < 0.0F ? bits + 1 : UINT32_C(0x80000001);
-    memcpy(&x, &bits, sizeof x);
-    return x;
-}
-
 /* What is not a number goes to the far end: a box of it contains everything, and nothing is hidden. */
 float enf_round_down(double value) {
     if (!(value >= (double)-FLT_MAX)) {
@@ -100,8 +91,15 @@ float enf_round_down(double value) {
     if (value >= (double)FLT_MAX) {
         return FLT_MAX;
     }
+    /* The next float below, where rounding went up: as nextafterf(nearest, -FLT_MAX), but without a branch that is taken half of
+     * the time. What is below 0 rounds to -0 at most, so that +0 has never to be lowered. */
     float nearest = (float)value;
-    return (double)nearest > value ? below(nearest) : nearest;
+    uint32_t bits = 0;
+    memcpy(&bits, &nearest, sizeof bits);
+    uint32_t lower = (double)nearest > value ? 1U : 0U;
+    bits += lower * (2U * (bits >> 31) - 1U);
+    memcpy(&nearest, &bits, sizeof nearest);
+    return nearest;
 }
 
 float enf_round_up(double value) {

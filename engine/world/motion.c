@@ -171,6 +171,12 @@ static double farthest(const EnfBox3 *box) {
     return enf_length(reach);
 }
 
+/* No less than the distance of any point of the box from the origin. */
+static double magnitude(const EnfBox3 *box) {
+    return larger(fabs(box->min.x), fabs(box->max.x)) + larger(fabs(box->min.y), fabs(box->max.y)) +
+           larger(fabs(box->min.z), fabs(box->max.z));
+}
+
 static EnfBox3 cube(double radius) {
     EnfBox3 box = {{-radius, -radius, -radius}, {radius, radius, radius}};
     return box;
@@ -179,7 +185,7 @@ static EnfBox3 cube(double radius) {
 /* Box sum, widened outward by the error of what made it. */
 static EnfBox3 swept(EnfBox3 position, EnfBox3 extent, double error) {
     EnfBox3 out = {enf_add(position.min, extent.min), enf_add(position.max, extent.max)};
-    double size = larger(farthest(&position), 0.0) + farthest(&extent);
+    double size = larger(magnitude(&position), 0.0) + magnitude(&extent);
     EnfVec3 margin = enf_v3(error * size, error * size, error * size);
     out.min = enf_sub(out.min, margin);
     out.max = enf_add(out.max, margin);
@@ -196,9 +202,17 @@ static EnfBox3 path_bound(const EnfPathMotion *path, const EnfBox3 *local, int64
     return swept(position, turns ? cube(farthest(&extent)) : turned_box(&extent, path->rest.rotation), BOUND_ERROR);
 }
 
+/* The local box under one scale. */
+static EnfBox3 sized_box(const EnfBox3 *local, EnfVec3 scale) {
+    EnfVec3 a = enf_v3(local->min.x * scale.x, local->min.y * scale.y, local->min.z * scale.z);
+    EnfVec3 b = enf_v3(local->max.x * scale.x, local->max.y * scale.y, local->max.z * scale.z);
+    EnfBox3 out = {enf_v3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z)),
+                   enf_v3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z))};
+    return out;
+}
+
 static EnfBox3 pose_bound(const EnfPose *pose, const EnfBox3 *local) {
-    EnfBox3 scale = {pose->scale, pose->scale};
-    EnfBox3 extent = scaled_box(local, &scale);
+    EnfBox3 extent = sized_box(local, pose->scale);
     EnfBox3 position = {pose->position, pose->position};
     return swept(position, turned_box(&extent, pose->rotation), POSE_ERROR);
 }
