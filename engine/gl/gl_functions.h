@@ -16,6 +16,7 @@
     X(BindTexture, PFNGLBINDTEXTUREPROC)                                                                                       \
     X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                                                                               \
     X(BlendFuncSeparate, PFNGLBLENDFUNCSEPARATEPROC)                                                                           \
+    X(BlitFramebuffer, PFNGLBLITFRAMEBUFFERPROC)                                                                               \
     X(BufferData, PFNGLBUFFERDATAPROC)                                                                                         \
     X(BufferSubData, PFNGLBUFFERSUBDATAPROC)                                                                                   \
     X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)                                                                 \

@@ -69,6 +69,21 @@ void enf_gl_target_bind(EnfGlTarget *target, EnfRenderMode mode) {
     target->gl->f.Viewport(0, 0, (GLsizei)target->width_px, (GLsizei)target->height_px);
 }
 
+/* Without GL_FRAMEBUFFER_SRGB a blit converts nothing, whatever the two sides are (OpenGL 4.4, 18.3.1). */
+void enf_gl_target_show(EnfGlTarget *target, uint32_t width_px, uint32_t height_px) {
+    const EnfGlFunctions *f = &target->gl->f;
+    const GLint width = (GLint)width_px, height = (GLint)height_px;
+    bool scaled = width_px != target->width_px || height_px != target->height_px;
+    f->Disable(GL_FRAMEBUFFER_SRGB);
+    f->BindFramebuffer(GL_READ_FRAMEBUFFER, target->frames[ENF_RENDER_COLOR]);
+    f->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    f->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    f->BlitFramebuffer(0, 0, (GLint)target->width_px, (GLint)target->height_px, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                       scaled ? GL_LINEAR : GL_NEAREST);
+    f->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    f->Viewport(0, 0, width, height);
+}
+
 void enf_gl_target_read(EnfGlTarget *target, EnfRenderMode mode, uint8_t *rgba) {
     const EnfGlFunctions *f = &target->gl->f;
     f->BindFramebuffer(GL_FRAMEBUFFER, target->frames[mode]);

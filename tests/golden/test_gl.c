@@ -459,6 +459,46 @@ static void lines_and_wireframe_draw_over_the_picture(void **state) {
     enf_rooms_destroy(&rooms);
 }
 
+/* A window is framebuffer 0 of somebody's context; OSMesa has one, of 16 × 16 px. The loader is the caller's own. */
+static EnfGlLoadFn *foreign;
+
+static void *load_foreign(const char *name) {
+    return foreign(name);
+}
+
+typedef void ReadFn(int x, int y, int width, int height, unsigned format, unsigned type, void *pixels);
+
+static void pictures_are_shown_in_windows(void **state) {
+    (void)state;
+    enum { WINDOW = 16 };
+    EnfTestRng rng = enf_test_rng_fixed(6, 6);
+    EnfRooms rooms = make_rooms();
+    EnfError error = {0};
+    Stage stage;
+    open_stage(&stage, rooms.map, ENF_CONTEXT_OSMESA);
+    foreign = enf_context_loader(stage.context);
+    EnfGl *gl;
+    EnfGlTarget *target;
+    assert_int_equal(enf_gl_create(&gl, rooms.map, load_foreign, &error), ENF_OK);
+    assert_int_equal(enf_gl_target_create(gl, &target, WINDOW, WINDOW, &error), ENF_OK);
+    EnfView view = random_view(&rooms, &rng, 0);
+    const EnfDrawList *list = enf_draw_build(stage.draw, enf_vis_run(stage.vis, &stage.portals, &view), NEAR, NULL, 1.0);
+    uint8_t made[WINDOW * WINDOW * 4], shown[WINDOW * WINDOW * 4];
+    enf_gl_target_bind(target, ENF_RENDER_COLOR);
+    enf_gl_draw(gl, list, ENF_RENDER_COLOR);
+    enf_gl_target_read(target, ENF_RENDER_COLOR, made);
+    enf_gl_target_show(target, WINDOW, WINDOW);
+    ReadFn *read;
+    void *address = foreign("glReadPixels");
+    memcpy(&read, &address, sizeof read);
+    read(0, 0, WINDOW, WINDOW, 0x1908 /* GL_RGBA */, 0x1401 /* GL_UNSIGNED_BYTE */, shown);
+    assert_memory_equal(made, shown, sizeof made);
+    enf_gl_target_destroy(target);
+    enf_gl_destroy(gl);
+    close_stage(&stage);
+    enf_rooms_destroy(&rooms);
+}
+
 static void *load_nothing(const char *name) {
     (void)name;
     return NULL;
@@ -488,7 +528,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(unlit_texels_come_out_unchanged), cmocka_unit_test(blending_is_linear_and_ids_take_the_front),
     cmocka_unit_test(masks_cut_colour_and_ids_alike),  cmocka_unit_test(lights_are_listed_where_they_reach),
     cmocka_unit_test(references_of_a_light_are_one),   cmocka_unit_test(lines_and_wireframe_draw_over_the_picture),
-    cmocka_unit_test(failures_are_reported),
+    cmocka_unit_test(failures_are_reported),           cmocka_unit_test(pictures_are_shown_in_windows),
 };
 
 ENF_TEST_MAIN(tests)

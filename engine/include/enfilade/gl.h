@@ -23,8 +23,9 @@ EnfResult enf_gl_create(EnfGl **gl, const EnfMap *map, EnfGlLoadFn *load, EnfErr
 /** The loader of a headless context. */
 EnfGlLoadFn *enf_context_loader(const EnfContext *context);
 void enf_gl_destroy(EnfGl *gl);
-/** Draws into the bound target of `width_px × height_px`: clears, opaque, then blended. IDS writes cluster + 1 as RGBA8 little-
- *  endian with no blending, no multisampling, no sRGB; alpha mask as in colour; blended surfaces count as solid. */
+/** Draws into the bound framebuffer and its viewport: clears, opaque, then blended. IDS writes cluster + 1, or clusters_count + object
+ *  + 1 for what moves, as RGBA8 little-endian with no blending, no multisampling, no sRGB; alpha mask as in colour; blended surfaces
+ *  count as solid. A window draws into an EnfGlTarget and shows it, or straight into its framebuffer 0 if that is sRGB-capable. */
 void enf_gl_draw(EnfGl *gl, const EnfDrawList *list, EnfRenderMode mode);
 
 /** An offscreen sRGB colour + depth target and its read-back. */
@@ -32,6 +33,10 @@ typedef struct EnfGlTarget EnfGlTarget;
 EnfResult enf_gl_target_create(EnfGl *gl, EnfGlTarget **target, uint32_t width_px, uint32_t height_px, EnfError *error);
 void enf_gl_target_destroy(EnfGlTarget *target);
 void enf_gl_target_bind(EnfGlTarget *target, EnfRenderMode mode);
+/** Shows the picture in the current window: copies it into framebuffer 0, scaled to width_px × height_px, bytes as they are (a window
+ *  need not be sRGB-capable). Leaves framebuffer 0 bound and its viewport set, GL_FRAMEBUFFER_SRGB off: what is drawn over it next
+ *  (lines, a user interface) gives its colours as they look. */
+void enf_gl_target_show(EnfGlTarget *target, uint32_t width_px, uint32_t height_px);
 /** width × height × 4 bytes RGBA, rows bottom to top. */
 void enf_gl_target_read(EnfGlTarget *target, EnfRenderMode mode, uint8_t *rgba);
 
@@ -41,7 +46,7 @@ typedef struct EnfDebugVertex {
     uint32_t rgba;
 } EnfDebugVertex;
 void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugVertex *vertices, uint32_t count, bool through);
-/** The clusters of `list` as wireframe in one colour over the picture (culled clusters of a frozen camera). */
+/** The clusters and movers of `list` as wireframe in one colour over the picture (culled clusters of a frozen camera). */
 void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba);
 
 #ifdef __cplusplus
