@@ -1,5 +1,6 @@
 /* enfinfo as it is called: what it prints about a map, its exit statuses, and its answers to "why". */
 #include "harness/harness.h"
+#include "scenes/everything.h"
 #include "scenes/rooms.h"
 
 #include <stdio.h>
@@ -75,6 +76,24 @@ static void test_lists(void **state) {
     EXPECT(with("@ --check", map), 0, "OK: 3 cells, 4 portals");
 }
 
+/* A map with a mover of each kind. */
+static void test_movers(void **state) {
+    (void)state;
+    EnfError error = {0};
+    EnfMaker *maker = enf_everything_create(&error);
+    const char *map = enf_test_temp_path("everything.enfmap");
+    if (!maker || enf_map_write(enf_maker_map(maker), map, &error)) {
+        fail_msg("%s", error.message);
+    }
+    enf_maker_destroy(maker);
+    EXPECT(with("@", map), 0, "movers     6: 2 along paths, 1 hinges, 1 slides, 1 free, 1 still; 3 close portals",
+           "meshes     2");
+    EXPECT(with("@ --movers", map), 0, "ping-pong", "0°..85.9°", "solid locked", "solid carry", "free");
+    EXPECT(with("@ --meshes", map), 0, "crate", "leaf", "0.50 × 0.50 × 0.50");
+    EXPECT(with("@ --json --movers --meshes", map), 0, "\"mover_count\": 6", "\"kind\": \"hinge\"", "\"wrap\": \"ping-pong\"",
+           "\"flags\": \"solid locked\"", "\"meshes\": [");
+}
+
 static void test_command_line(void **state) {
     (void)state;
     const char *map = rooms_map();
@@ -119,10 +138,8 @@ static void test_why(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_lists),
-    cmocka_unit_test(test_command_line),
-    cmocka_unit_test(test_unsound),
-    cmocka_unit_test(test_why),
+    cmocka_unit_test(test_lists),   cmocka_unit_test(test_movers), cmocka_unit_test(test_command_line),
+    cmocka_unit_test(test_unsound), cmocka_unit_test(test_why),
 };
 
 ENF_TEST_MAIN(tests)

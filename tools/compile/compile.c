@@ -129,6 +129,8 @@ static EnfResult assemble(Compiler *compiler) {
     report->clusters = compiler->assembly.clusters.count;
     report->kd_nodes = compiler->assembly.kd_nodes.count;
     report->lights = compiler->assembly.lights.count;
+    report->movers = compiler->assembly.movers.count;
+    report->meshes = compiler->assembly.meshes.count;
     report->seconds_kd = now() - start;
     return result;
 }

@@ -13,6 +13,7 @@ typedef struct EnfCompileReport {
     uint32_t cells, portals, half_portals; /**< portals: openings as authored (twins count once) */
     uint64_t triangles, triangles_stored;  /**< of the level (instanced); after dropping and splitting */
     uint32_t clusters, kd_nodes, lights;
+    uint32_t movers, meshes; /**< what moves or only collides; the meshes that they share */
     uint64_t bytes;
     double seconds_import, seconds_cells, seconds_kd, seconds_write;
     EnfDiagnosis diagnosis;

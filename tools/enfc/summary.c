@@ -89,6 +89,10 @@ void enfc_print_summary(const char *level, const char *output, const EnfCompileR
     count_line("clusters", report->clusters, "");
     count_line("kd nodes", report->kd_nodes, "");
     count_line("lights", report->lights, "");
+    if (report->movers > 0) {
+        snprintf(rest, sizeof rest, "%u meshes", report->meshes);
+        count_line("movers", report->movers, rest);
+    }
     count_line("warnings", report->diagnosis.count, "");
     printf("  %s in %.3f s: import %.3f, cells %.3f, kd %.3f, write %.3f\n", bytes_text(report->bytes, size), total,
            report->seconds_import, report->seconds_cells, report->seconds_kd, report->seconds_write);
@@ -110,6 +114,8 @@ static void write_counts(EnfReport *json, const EnfCompileReport *report) {
     enf_report_count(json, "clusters", report->clusters);
     enf_report_count(json, "kd_nodes", report->kd_nodes);
     enf_report_count(json, "lights", report->lights);
+    enf_report_count(json, "movers", report->movers);
+    enf_report_count(json, "meshes", report->meshes);
     enf_report_count(json, "bytes", report->bytes);
     enf_report_object(json, "seconds");
     write_seconds(json, "import", report->seconds_import);

@@ -40,6 +40,8 @@ static void put_counts(EnfReport *r, const EnfMap *map) {
     enf_report_count(r, "light_count", map->lights_count);
     enf_report_count(r, "entity_count", map->entities_count);
     enf_report_count(r, "path_count", map->paths_count);
+    enf_report_count(r, "mover_count", map->movers_count);
+    enf_report_count(r, "mesh_count", map->meshes_count);
     enf_report_array(r, "chunks");
     info_chunks(map, put_chunk, r);
     enf_report_end_array(r);
@@ -150,27 +152,93 @@ static void put_entities(EnfReport *r, const EnfMap *map) {
     enf_report_end_array(r);
 }
 
+static void put_index(EnfReport *r, const char *key, uint32_t index) {
+    if (index == ENF_NONE) {
+        enf_report_null(r, key);
+    } else {
+        enf_report_count(r, key, index);
+    }
+}
+
+/* What there is to say depends on the kind. */
+static void put_motion(EnfReport *r, const EnfMap *map, uint32_t mover) {
+    const EnfMover *m = &map->movers[mover];
+    if (m->kind == ENF_MOVER_PATH) {
+        enf_report_text(r, "wrap", info_mover_wrap(map, mover));
+        enf_report_number(r, "seconds", (double)m->seconds);
+        enf_report_number(r, "phase", (double)m->phase);
+        put_index(r, "translation", m->translation);
+        put_index(r, "rotation", m->rotation);
+        put_index(r, "scale", m->scale);
+    } else if (m->kind == ENF_MOVER_HINGE || m->kind == ENF_MOVER_SLIDE) {
+        put_vec3(r, "axis", enf_v3((double)m->axis[0], (double)m->axis[1], (double)m->axis[2]));
+        put_vec3(r, "pivot", enf_v3(m->pivot[0], m->pivot[1], m->pivot[2]));
+        enf_report_number(r, "low", (double)m->low);
+        enf_report_number(r, "high", (double)m->high);
+        enf_report_number(r, "rate", (double)m->rate);
+    }
+}
+
+static void put_movers(EnfReport *r, const EnfMap *map) {
+    enf_report_array(r, "movers");
+    for (uint32_t i = 0; i < map->movers_count; i++) {
+        const EnfMover *m = &map->movers[i];
+        const EnfEntity *e = &map->entities[m->entity];
+        char flags[96];
+        enf_report_object(r, NULL);
+        enf_report_text(r, "name", enf_map_string(map, e->name));
+        enf_report_text(r, "class", enf_map_string(map, e->classname));
+        enf_report_text(r, "kind", info_mover_kind(map, i));
+        enf_report_count(r, "entity", m->entity);
+        put_index(r, "mesh", m->mesh);
+        enf_report_text(r, "cell", info_cell_name(map, e->cell));
+        put_index(r, "portal", m->portal);
+        put_motion(r, map, i);
+        enf_report_number(r, "max_speed", (double)m->max_speed);
+        enf_report_count(r, "validity_ticks", m->validity_ticks);
+        enf_report_text(r, "flags", info_mover_flags(map, i, flags));
+        enf_report_end_object(r);
+    }
+    enf_report_end_array(r);
+}
+
+static void put_meshes(EnfReport *r, const EnfMap *map) {
+    enf_report_array(r, "meshes");
+    for (uint32_t i = 0; i < map->meshes_count; i++) {
+        const EnfMesh *m = &map->meshes[i];
+        enf_report_object(r, NULL);
+        enf_report_text(r, "name", enf_map_string(map, m->name));
+        put_vec3(r, "min", enf_v3((double)m->min[0], (double)m->min[1], (double)m->min[2]));
+        put_vec3(r, "max", enf_v3((double)m->max[0], (double)m->max[1], (double)m->max[2]));
+        enf_report_count(r, "parts", m->part_count);
+        enf_report_count(r, "triangles", info_mesh_triangles(map, i));
+        enf_report_count(r, "vertices", info_mesh_vertices(map, i));
+        enf_report_count(r, "movers", info_mesh_users(map, i));
+        enf_report_end_object(r);
+    }
+    enf_report_end_array(r);
+}
+
 /* The lists that were asked for; all of them if none was. */
 bool info_print_json(const EnfMap *map, const Options *options) {
-    const bool all = !(options->cells || options->portals || options->materials || options->lights || options->entities);
+    const struct {
+        void (*put)(EnfReport *, const EnfMap *);
+        bool wanted;
+    } lists[] = {{put_cells, options->cells},   {put_portals, options->portals},   {put_materials, options->materials},
+                 {put_lights, options->lights}, {put_entities, options->entities}, {put_movers, options->movers},
+                 {put_meshes, options->meshes}};
+    bool all = true;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        all = all && !lists[i].wanted;
+    }
     EnfReport report = {.pretty = true};
     enf_report_object(&report, NULL);
     enf_report_text(&report, "map", options->map_path);
     put_counts(&report, map);
-    if (all || options->cells) {
-        put_cells(&report, map);
-    }
-    if (all || options->portals) {
-        put_portals(&report, map);
-    }
-    if (all || options->materials) {
-        put_materials(&report, map);
-    }
-    if (all || options->lights) {
-        put_lights(&report, map);
-    }
-    if (all || options->entities) {
-        put_entities(&report, map);
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        if (all || lists[i].wanted) {
+            lists[i].put(&report, map);
+        }
     }
     enf_report_end_object(&report);
     EnfError error;

@@ -45,7 +45,9 @@ static EnfCliResult parse(Options *o, int argc, char **argv) {
         {"--portals", NULL, ENF_OPTION_FLAG, &o->portals, NULL, NULL, "list the half-portals"},
         {"--materials", NULL, ENF_OPTION_FLAG, &o->materials, NULL, NULL, "list the materials"},
         {"--lights", NULL, ENF_OPTION_FLAG, &o->lights, NULL, NULL, "list the lights"},
-        {"--entities", NULL, ENF_OPTION_FLAG, &o->entities, NULL, NULL, "list spawn points, cameras, markers, what moves"},
+        {"--entities", NULL, ENF_OPTION_FLAG, &o->entities, NULL, NULL, "list spawn points, cameras, markers"},
+        {"--movers", NULL, ENF_OPTION_FLAG, &o->movers, NULL, NULL, "list what moves: how, where, what it closes"},
+        {"--meshes", NULL, ENF_OPTION_FLAG, &o->meshes, NULL, NULL, "list the meshes of what moves"},
         {"--json", NULL, ENF_OPTION_FLAG, &o->json, NULL, NULL, "the lists asked for (or all) as JSON"},
         {"--eye", NULL, ENF_OPTION_VECTOR, o->eye, "X,Y,Z", NULL, "why: where the eye is, metres"},
         {"--yaw", NULL, ENF_OPTION_NUMBER, &o->yaw_deg, "DEG", NULL, "why: counter-clockwise about +Y, 0 looks down -Z"},
@@ -73,16 +75,19 @@ static void print_error(const EnfError *error) {
 }
 
 static void print_lists(const EnfMap *map, const Options *o) {
-    void (*const lists[])(const EnfMap *) = {info_print_portals, info_print_materials, info_print_lights, info_print_entities};
-    const bool wanted[] = {o->portals, o->materials, o->lights, o->entities};
+    const struct {
+        void (*print)(const EnfMap *);
+        bool wanted;
+    } lists[] = {{info_print_portals, o->portals},   {info_print_materials, o->materials}, {info_print_lights, o->lights},
+                 {info_print_entities, o->entities}, {info_print_movers, o->movers},       {info_print_meshes, o->meshes}};
     bool any = o->cells;
     if (o->cells) {
         info_print_cells(map, UINT32_MAX);
     }
-    for (int i = 0; i < 4; i++) {
-        if (wanted[i]) {
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        if (lists[i].wanted) {
             fputs(any ? "\n" : "", stdout);
-            lists[i](map);
+            lists[i].print(map);
             any = true;
         }
     }

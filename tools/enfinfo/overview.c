@@ -98,6 +98,32 @@ static void print_size(const EnfMap *map) {
     }
 }
 
+static uint32_t static_triangles(const EnfMap *map) {
+    uint32_t triangles = 0;
+    for (uint32_t i = 0; i < map->clusters_count; i++) {
+        triangles += map->clusters[i].index_count / 3;
+    }
+    return triangles;
+}
+
+static void print_movers_line(const EnfMap *map) {
+    uint32_t triangles = 0, doors = 0;
+    for (uint32_t i = 0; i < map->movers_count; i++) {
+        doors += map->movers[i].portal != ENF_NONE;
+    }
+    for (uint32_t i = 0; i < map->meshes_count; i++) {
+        triangles += info_mesh_triangles(map, i);
+    }
+    printf("  movers     %u", map->movers_count);
+    if (map->movers_count > 0) {
+        printf(": %u along paths, %u hinges, %u slides, %u free, %u still; %u close portals",
+               info_movers_of_kind(map, ENF_MOVER_PATH), info_movers_of_kind(map, ENF_MOVER_HINGE),
+               info_movers_of_kind(map, ENF_MOVER_SLIDE), info_movers_of_kind(map, ENF_MOVER_FREE),
+               info_movers_of_kind(map, ENF_MOVER_STILL), doors);
+    }
+    printf("\n  meshes     %u, of %u triangles in %u parts\n", map->meshes_count, triangles, map->mesh_parts_count);
+}
+
 static void print_counts(const EnfMap *map) {
     uint32_t outside = 0, open = 0;
     for (uint32_t i = 0; i < map->cells_count; i++) {
@@ -109,13 +135,14 @@ static void print_counts(const EnfMap *map) {
         printf(", %u with a leaking shell\n", open);
     }
     print_portals_line(map);
-    printf("  geometry   %u triangles in %u clusters, %u vertices\n", map->indices_count / 3, map->clusters_count,
+    printf("  geometry   %u triangles in %u clusters, %u vertices\n", static_triangles(map), map->clusters_count,
            map->vertices_count);
     printf("  kd-trees   %u nodes, %u blocks of eight boxes\n", map->kd_nodes_count, map->kd_blocks_count);
     printf("  materials  %u, with %u textures of %u images\n", map->materials_count, map->textures_count, map->images_count);
     printf("  lights     %u, reaching cells %u times\n", map->lights_count, map->light_refs_count);
     printf("  entities   %u, with %u cameras and %u animation paths\n", map->entities_count, map->cameras_count,
            map->paths_count);
+    print_movers_line(map);
 }
 
 void info_print_overview(const EnfMap *map, const Options *options) {
