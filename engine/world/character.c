@@ -16,6 +16,10 @@ enum { STILL_TICKS = 8 };
 #define STILL_WAY 0x1p-10
 /* The eye stays this far below the capsule's top and above its feet, metres. */
 #define EYE_MARGIN 0.05
+/* Ticks between two looks for the cell of an eye that is in none. */
+enum { LOOK_TICKS = 8 };
+/* Who is this far outside of all cells, metres, fell out of the level. */
+#define FALLEN 4.0
 /* Share of the lag left after a tick. */
 #define LAG_KEPT 0.85
 
@@ -63,10 +67,13 @@ static void follow(EnfWalk *walk, EnfVec3 from, EnfVec3 to) {
 }
 
 static void check_cell(EnfWalk *walk) {
-    uint32_t cell = walk->body->cell;
-    if (cell == ENF_NONE || !in_cell_box(walk->collider->map, cell, enf_character_eye(walk->body))) {
+    EnfCharacter *body = walk->body;
+    bool in = body->cell != ENF_NONE && in_cell_box(walk->collider->map, body->cell, enf_character_eye(body));
+    if (!in && body->lost_ticks % LOOK_TICKS == 0) { /* to look for it costs as much as a hundred moves */
         locate(walk);
+        in = body->cell != ENF_NONE;
     }
+    body->lost_ticks = in ? 0 : body->lost_ticks + 1;
 }
 
 void enf_walk_commit(EnfWalk *walk, const EnfTrial *trial) {
@@ -336,23 +343,35 @@ static void put(EnfWalk *walk, EnfVec3 at) {
     locate(walk);
 }
 
+/* Through a leak, and on for ever? */
+static bool has_fallen_out(const EnfWalk *walk) {
+    EnfVec3 far = enf_v3(FALLEN, FALLEN, FALLEN);
+    EnfBox3 box = {enf_sub(walk->collider->bounds.min, far), enf_add(walk->collider->bounds.max, far)};
+    return walk->body->cell == ENF_NONE && (walk->body->flags & ENF_CHARACTER_HAS_GOOD) &&
+           !enf_box3_contains(box, walk->body->position);
+}
+
+static void keep_good(EnfCharacter *body) {
+    if (body->cell != ENF_NONE) {
+        body->good = body->position;
+        body->flags |= ENF_CHARACTER_HAS_GOOD;
+    }
+}
+
 /* Inside the level (after noclip, or put there): out by the nearest way, else back to where it was free last. */
 static void get_out(EnfWalk *walk) {
     static const double near = 1.0, far = 6.0;
     EnfCharacter *body = walk->body;
     EnfVec3 place;
-    if (!enf_collide_overlap(walk->collider, &walk->capsule, body->position, NULL)) {
-        body->good = body->position;
-        body->flags |= ENF_CHARACTER_HAS_GOOD;
-        return;
-    }
-    if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, near, &place)) {
+    if (has_fallen_out(walk)) {
+        put(walk, body->good);
+        walk->report->moved |= ENF_MOVED_RETURNED;
+    } else if (!enf_collide_overlap(walk->collider, &walk->capsule, body->position, NULL)) {
+        keep_good(body);
+    } else if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, near, &place)) {
         put(walk, place);
-        return;
-    }
-    bool good = (body->flags & ENF_CHARACTER_HAS_GOOD) &&
-                !enf_collide_overlap(walk->collider, &walk->capsule, body->good, NULL);
-    if (good) {
+    } else if ((body->flags & ENF_CHARACTER_HAS_GOOD) &&
+               !enf_collide_overlap(walk->collider, &walk->capsule, body->good, NULL)) {
         put(walk, body->good);
     } else if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, far, &place)) {
         put(walk, place);

@@ -37,7 +37,15 @@ static bool fill(EnfCollider *c) {
     for (uint32_t i = 0; i < map->materials_count; i++) {
         c->collides[i] = enf_material_collides(&map->materials[i]);
     }
+    c->bounds = enf_box3_empty();
     for (uint32_t i = 0; i < map->cells_count; i++) {
+        const EnfCell *cell = &map->cells[i];
+        for (int k = 0; k < 2; k++) {
+            const float *p = k == 0 ? cell->min : cell->max;
+            EnfVec3 corner = enf_v3(cell->origin[0] + (double)p[0], cell->origin[1] + (double)p[1],
+                                    cell->origin[2] + (double)p[2]);
+            c->bounds = enf_box3_add(c->bounds, corner);
+        }
         if (map->cells[i].flags & ENF_CELL_OUTSIDE) {
             c->outside[c->outside_count++] = i;
         }

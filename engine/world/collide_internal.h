@@ -62,6 +62,7 @@ struct EnfCollider {
     uint32_t *stamps, stamp;    /* a cluster: the gathering that took it last */
     uint32_t *outside;          /* cells that the tree over cells lacks */
     uint32_t outside_count;
+    EnfBox3 bounds;             /* of all cells */
     EnfNearTriangle *triangles; /* of the level first, then of the solids */
     uint32_t level_count, count, capacity;
     EnfBox3 region; /* that they were gathered for; empty: none */

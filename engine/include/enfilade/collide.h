@@ -130,7 +130,7 @@ typedef struct EnfCharacter {
     EnfVec3 position;      /**< world: the feet */
     EnfVec3 velocity;      /**< m/s; while grounded, its own, not that of what it stands on */
     EnfVec3 ground_normal; /**< unit, where grounded */
-    EnfVec3 good;          /**< the last place known to be free */
+    EnfVec3 good;          /**< the last place that was free, with the eye in a cell */
     double height;         /**< of the capsule now: it crouches and stands up at a finite speed */
     double lag;            /**< metres that the eye is still below where it belongs: a step taken a moment ago, smoothed */
     uint32_t object; /**< of the world, that is this very body and so never in its way; set it after the spawn, or ENF_NONE */
@@ -140,7 +140,7 @@ typedef struct EnfCharacter {
     uint32_t mode;           /**< EnfCharacterMode */
     uint32_t flags;
     uint32_t still_ticks; /**< ticks in the air without getting anywhere: after some, it may walk as on the ground */
-    uint32_t reserved;
+    uint32_t lost_ticks;  /**< since the eye was in a cell last */
 } EnfCharacter;
 
 /** What a body is told for one tick. */
@@ -160,6 +160,7 @@ enum {
     ENF_MOVED_SQUEEZED = 32,  /**< between a solid and a wall: the solid should turn back */
     ENF_MOVED_RELOCATED = 64, /**< out of something solid, not along `path` */
     ENF_MOVED_CARRIED = 128,
+    ENF_MOVED_RETURNED = 256, /**< and RELOCATED: fell out of the level through a leak, and is back where it was in a cell */
 };
 
 #define ENF_CHARACTER_PATH_MAX 48
