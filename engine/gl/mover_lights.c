@@ -2,6 +2,7 @@
  * they fade by the same range, cone, windows and exposure, and a mover by a wall looks like the wall. */
 #include "gl/mover_lights.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Outside its cell a light fades out within so many metres, where an object is in several cells at once. */
@@ -40,6 +41,28 @@ static void box_in_cell(const Packer *packer, const float at[3], float min[3], f
         min[i] = low[i] + at[i];
         max[i] = high[i] + at[i];
     }
+}
+
+static float dot3(const float *a, const float *b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The most of a spot's cone that any point of the box can have, 0 to 1: its value at the middle, and what the direction may turn by
+ * towards a corner (|u' - u| <= 2 r / d). Lamps that are no spots have an aim of 0 and an offset of 1. */
+static float cone_at(const EnfGlLight *light, const float min[3], const float max[3]) {
+    float to[3], radius2 = 0.0f;
+    for (int i = 0; i < 3; i++) {
+        float half = 0.5f * (max[i] - min[i]);
+        to[i] = min[i] + half - light->position[i];
+        radius2 += half * half;
+    }
+    float distance = sqrtf(dot3(to, to)), radius = sqrtf(radius2);
+    if (radius >= distance) {
+        return 1.0f;
+    }
+    float slack = sqrtf(dot3(light->aim, light->aim)) * 2.0f * radius / distance;
+    float cone = light->aim_offset + dot3(light->aim, to) / distance + slack;
+    return cone < 0.0f ? 0.0f : cone > 1.0f ? 1.0f : cone;
 }
 
 static bool is_before(Candidate a, Candidate b) {
@@ -82,8 +105,11 @@ static void choose(Packer *packer) {
             const EnfGlCellLight *kept = &packer->lights->cell_lights[i];
             if (enf_gl_light_touches(packer->lights, &kept->light, min, max)) {
                 float distance2 = enf_gl_light_distance2(&kept->light, min, max) + 0.25f;
-                Candidate candidate = {enf_gl_light_brightness(&kept->light, distance2), kept->number};
-                consider(packer, candidate);
+                float cone = cone_at(&kept->light, min, max);
+                Candidate candidate = {enf_gl_light_brightness(&kept->light, distance2) * cone * cone, kept->number};
+                if (candidate.brightness > 0.0f) {
+                    consider(packer, candidate);
+                }
             }
         }
     }

@@ -382,6 +382,53 @@ static EnfMaker *make_lit_room(bool moves) {
     return maker;
 }
 
+/* Of twenty equal lamps the eight nearest to the object's box, nearest first. */
+static void the_brightest_lights_are_chosen(void **state) {
+    (void)state;
+    enum { LAMPS = 20 };
+    EnfTestRng rng = enf_test_rng(5);
+    EnfMaker *maker = enf_maker_create();
+    uint32_t cell;
+    EnfVec3 lamps[LAMPS];
+    assert_non_null(maker);
+    enf_maker_cell(maker, "room", enf_v3(0, 0, 0), &cell);
+    enf_maker_box(maker, cell, 0, (EnfBox3){{0, 0, 0}, {20, 4, 20}}, true);
+    enf_maker_mesh(maker, "thing", 0, (EnfBox3){{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
+    for (uint32_t i = 0; i < LAMPS; i++) {
+        lamps[i] = enf_v3(enf_test_double(&rng, 0.5, 19.5), 3.5, enf_test_double(&rng, 0.5, 19.5));
+        enf_maker_light(maker, cell, lamps[i], (EnfVec3f){200, 200, 200}, 40);
+    }
+    const EnfMap *map = enf_maker_finish(maker, NULL);
+    assert_non_null(map);
+    EnfGlLights lights;
+    assert_int_equal(enf_gl_lights_build(&lights, map, NULL), ENF_OK);
+    for (uint32_t round = 0; round < 100; round++) {
+        static EnfGlMoverLights chosen;
+        EnfDrawMover mover = {.cell_count = 1, .box = {{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}}};
+        mover.position_ws = enf_v3(enf_test_double(&rng, 1, 19), 1, enf_test_double(&rng, 1, 19));
+        enf_gl_mover_lights(&chosen, &lights, map, &mover);
+        double farthest = 0.0;
+        for (uint32_t i = 0; i < chosen.light_count; i++) {
+            EnfVec3 to = enf_sub(lamps[chosen.numbers[i]], mover.position_ws);
+            double x = fmax(fabs(to.x) - 0.5, 0.0), z = fmax(fabs(to.z) - 0.5, 0.0), d = x * x + 4.0 + z * z;
+            assert_true(d >= farthest - 1e-4);
+            farthest = d;
+        }
+        assert_in_range(chosen.light_count, 1, ENF_GL_MOVER_LIGHTS);
+        for (uint32_t k = 0; k < LAMPS && chosen.light_count == ENF_GL_MOVER_LIGHTS; k++) {
+            bool listed = false;
+            for (uint32_t i = 0; i < chosen.light_count; i++) {
+                listed = listed || chosen.numbers[i] == k;
+            }
+            EnfVec3 to = enf_sub(lamps[k], mover.position_ws);
+            double x = fmax(fabs(to.x) - 0.5, 0.0), z = fmax(fabs(to.z) - 0.5, 0.0);
+            assert_true(listed || x * x + 4.0 + z * z >= farthest - 1e-4);
+        }
+    }
+    enf_gl_lights_free(&lights);
+    enf_maker_destroy(maker);
+}
+
 static void shoot_lit_room(bool moves, EnfVec3 eye, double yaw, uint8_t *picture) {
     EnfMaker *maker = make_lit_room(moves);
     EnfError error = {0};
@@ -453,7 +500,7 @@ static void movers_look_like_walls(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(light_does_not_ask_what_is_visible),  cmocka_unit_test(movers_look_like_walls),
     cmocka_unit_test(culled_equals_unculled_with_egl),     cmocka_unit_test(culled_equals_unculled_with_osmesa),
-    cmocka_unit_test(pictures_between_ticks_lose_nothing),
+    cmocka_unit_test(pictures_between_ticks_lose_nothing), cmocka_unit_test(the_brightest_lights_are_chosen),
 };
 
 ENF_TEST_MAIN(tests)
