@@ -69,6 +69,7 @@ typedef struct EnfDbvPlaces {
     uint32_t *parents;   /**< ENF_NONE at the root of the cells' tree and for the OUTSIDE cell */
     uint32_t *heads;     /**< a place: first block, or ENF_NONE */
     uint32_t *below;     /**< a kd node: entries there and beneath */
+    uint32_t *owners;    /**< of a kd node (from nodes_first): the place of its cell */
     EnfBox3 *boxes;      /**< of nodes and cells, world */
     EnfDbvFit *fits;     /**< of nodes and cells */
     uint32_t *hot_frame; /**< a node or cell that is or holds a seen cell: the frame that saw it */
@@ -143,6 +144,12 @@ void enf_dbv_planes(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *p
 /* places.c */
 EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const EnfAllocator *allocator, EnfError *error);
 void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator);
+/** The cell that a place within a cell belongs to, as a place; of a node of the cells' tree, itself. */
+static inline uint32_t enf_dbv_owner(const EnfDbvPlaces *places, uint32_t place) {
+    return place < places->nodes_first   ? place
+           : place < places->walks_first ? places->owners[place - places->nodes_first]
+                                         : place - places->walks_first + places->cells_first;
+}
 size_t enf_dbv_places_bytes(const EnfDbvPlaces *places);
 /** As enf_world_touches has it: an overlap of more than a grid step. */
 bool enf_dbv_box_touches(const EnfBox3 *place, const EnfBox3 *box);

@@ -39,9 +39,7 @@ void enf_dbv_grow(EnfDbvPlaces *places, uint32_t place, EnfBox3f box) {
     if (place < places->nodes_first) {
         widen(&places->fits[place].own, &box);
     }
-    while (place >= places->nodes_first) { /* a kd node's volumes are its cell's */
-        place = places->parents[place];
-    }
+    place = enf_dbv_owner(places, place); /* a kd node's volumes are its cell's */
     for (; place != ENF_NONE && !holds(&places->fits[place].all, &box); place = places->parents[place]) {
         widen(&places->fits[place].all, &box);
     }

@@ -93,10 +93,12 @@ EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const E
     places->parents = enf_alloc(allocator, count, sizeof *places->parents);
     places->heads = enf_alloc(allocator, count, sizeof *places->heads);
     places->below = enf_alloc(allocator, count, sizeof *places->below);
+    places->owners = enf_alloc(allocator, (size_t)map->kd_nodes_count + 1, sizeof *places->owners);
     places->hot_frame = enf_alloc(allocator, outer, sizeof *places->hot_frame);
     places->boxes = enf_alloc(allocator, outer, sizeof *places->boxes);
     places->fits = enf_alloc(allocator, outer, sizeof *places->fits);
-    if (!places->boxes || !places->parents || !places->heads || !places->below || !places->hot_frame || !places->fits) {
+    bool ok = places->boxes && places->parents && places->heads && places->below && places->owners && places->hot_frame;
+    if (!ok || !places->fits) {
         enf_dbv_places_destroy(places, allocator);
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "%u places of volumes", places->count);
     }
@@ -108,6 +110,9 @@ EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const E
         EnfKdTree own = enf_map_cell_tree(map, cell);
         tree_parents(&own, places->nodes_first + map->cells[cell].node_first, places->cells_first + cell, places->parents,
                      NULL);
+        for (uint32_t n = 0; n < own.node_count; n++) {
+            places->owners[map->cells[cell].node_first + n] = places->cells_first + cell;
+        }
     }
     make_boxes(places);
     enf_dbv_fits_clear(places);
@@ -120,6 +125,7 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
     enf_free(allocator, places->parents, count, sizeof *places->parents);
     enf_free(allocator, places->heads, count, sizeof *places->heads);
     enf_free(allocator, places->below, count, sizeof *places->below);
+    enf_free(allocator, places->owners, (size_t)places->walks_first - places->nodes_first + 1, sizeof *places->owners);
     enf_free(allocator, places->hot_frame, outer, sizeof *places->hot_frame);
     enf_free(allocator, places->boxes, outer, sizeof *places->boxes);
     enf_free(allocator, places->fits, outer, sizeof *places->fits);
@@ -127,21 +133,33 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
 
 size_t enf_dbv_places_bytes(const EnfDbvPlaces *places) {
     size_t outer = sizeof *places->hot_frame + sizeof *places->boxes + sizeof *places->fits;
-    return ((size_t)places->count + 1) * 3 * sizeof(uint32_t) + ((size_t)places->nodes_first + 1) * outer;
+    size_t kd = (size_t)places->walks_first - places->nodes_first + 1;
+    return ((size_t)places->count + 1) * 3 * sizeof(uint32_t) + kd * sizeof *places->owners +
+           ((size_t)places->nodes_first + 1) * outer;
 }
 
 /* ---- links ------------------------------------------------------------------------------------------------------ */
 
-/* Counts an entry within a cell's tree in or out, from its node up. */
-static void count_below(EnfDbvPlaces *places, uint32_t place, bool in) {
-    for (; place >= places->nodes_first && place < places->walks_first; place = places->parents[place]) {
-        places->below[place] += in ? 1U : UINT32_MAX;
+/* An entry moves within or between trees of cells: counts it out of one node and those above, and into another. What is above both
+ * keeps its count: a node's number is higher than its parent's, so the two ways up meet. ENF_NONE, or no kd node: counts only
+ * the other. */
+static void count_move(EnfDbvPlaces *places, uint32_t from, uint32_t to) {
+    from = from < places->walks_first ? from : 0;
+    to = to < places->walks_first ? to : 0;
+    while (from != to && (from >= places->nodes_first || to >= places->nodes_first)) {
+        if (from > to) {
+            places->below[from]--;
+            from = places->parents[from];
+        } else {
+            places->below[to]++;
+            to = places->parents[to];
+        }
     }
 }
 
-void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
+/* Counts nothing. */
+static void link_uncounted(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
     if (enf_dbv_link(index, object, place, box)) {
-        count_below(&index->places, place, true);
         enf_dbv_grow(&index->places, place, box);
     } else {
         index->failed = true;
@@ -149,11 +167,19 @@ void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox
     }
 }
 
+void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box) {
+    uint32_t before = index->volumes[object].link_count;
+    link_uncounted(index, object, place, box);
+    if (index->volumes[object].link_count > before) {
+        count_move(&index->places, ENF_NONE, place);
+    }
+}
+
 void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object) {
     EnfDbvVolume *volume = &index->volumes[object];
     while (volume->link_count > 0) {
         uint32_t place = enf_dbv_unlink(index, volume->links[--volume->link_count]);
-        count_below(&index->places, place, false);
+        count_move(&index->places, place, ENF_NONE);
         if (place < index->places.nodes_first) {
             index->places.fits[place].loose = true;
         }
@@ -227,13 +253,19 @@ static double margin(const EnfBox3 *box) {
     return ENF_GRID_STEP + size * 0x1p-21;
 }
 
-static bool holds(const EnfBox3 *outer, const EnfBox3 *inner) {
-    double m = margin(inner);
-    return outer->min.x + m <= inner->min.x && outer->min.y + m <= inner->min.y && outer->min.z + m <= inner->min.z &&
-           outer->max.x - m >= inner->max.x && outer->max.y - m >= inner->max.y && outer->max.z - m >= inner->max.z;
+static EnfBox3 with_margin(const EnfBox3 *box) {
+    double m = margin(box);
+    EnfVec3 room = enf_v3(m, m, m);
+    EnfBox3 out = {enf_sub(box->min, room), enf_add(box->max, room)};
+    return out;
 }
 
-/* Down a cell's kd-tree while one child holds the whole volume: what is outside that child's box needs no look at it. */
+static bool holds(const EnfBox3 *outer, const EnfBox3 *inner) {
+    return outer->min.x <= inner->min.x && outer->min.y <= inner->min.y && outer->min.z <= inner->min.z &&
+           outer->max.x >= inner->max.x && outer->max.y >= inner->max.y && outer->max.z >= inner->max.z;
+}
+
+/* Down a cell's kd-tree while one child holds the whole volume (with its margin): what is outside that child's box needs no look at it. */
 static uint32_t descend(EnfDbvIndex *index, uint32_t cell, uint32_t from, const EnfBox3 *box) {
     const EnfMap *map = index->map;
     const EnfCell *c = &map->cells[cell];
@@ -270,21 +302,15 @@ static uint32_t descend(EnfDbvIndex *index, uint32_t cell, uint32_t from, const 
 }
 
 /* From a volume's old place up to the lowest that its middle lies in. */
-static uint32_t climb(EnfDbvIndex *index, uint32_t from, const Middle *middle, const EnfBox3 *box) {
+static uint32_t climb(EnfDbvIndex *index, uint32_t from, const Middle *middle, const EnfBox3 *wide) {
     const EnfDbvPlaces *places = &index->places;
     const EnfMap *map = places->map;
-    uint32_t place = from;
-    if (place >= places->walks_first) {
-        place = place - places->walks_first + places->cells_first;
-    }
-    uint32_t cell = place;
-    while (cell >= places->nodes_first) {
-        cell = places->parents[cell];
-    }
+    uint32_t place = from < places->walks_first ? from : enf_dbv_owner(places, from);
+    uint32_t cell = enf_dbv_owner(places, place);
     for (; place >= places->nodes_first; place = places->parents[place]) {
         EnfBox3 here = node_box(&map->kd_nodes[place - places->nodes_first], map->cells[cell - places->cells_first].origin);
         index->counters.nodes++;
-        if (holds(&here, box)) {
+        if (holds(&here, wide)) {
             return place;
         }
     }
@@ -301,7 +327,8 @@ static uint32_t climb(EnfDbvIndex *index, uint32_t from, const Middle *middle, c
 static uint32_t find_place(EnfDbvIndex *index, const EnfBox3 *box, uint32_t from) {
     const EnfDbvPlaces *places = &index->places;
     Middle middle = middle_of(box);
-    uint32_t place = from == ENF_NONE ? 0 : climb(index, from, &middle, box);
+    EnfBox3 wide = with_margin(box);
+    uint32_t place = from == ENF_NONE ? 0 : climb(index, from, &middle, &wide);
     while (place < places->cells_first) {
         uint32_t next = step_down(index, place, &middle);
         if (next == ENF_NONE) {
@@ -309,11 +336,19 @@ static uint32_t find_place(EnfDbvIndex *index, const EnfBox3 *box, uint32_t from
         }
         place = next;
     }
-    uint32_t cell = place;
-    while (cell >= places->nodes_first) {
-        cell = places->parents[cell];
+    uint32_t cell = enf_dbv_owner(places, place);
+    return descend(index, cell - places->cells_first, place, &wide);
+}
+
+static void move_link(EnfDbvIndex *index, uint32_t object, uint32_t from, uint32_t to, EnfBox3f box) {
+    EnfDbvVolume *volume = &index->volumes[object];
+    volume->link_count = 0;
+    (void)enf_dbv_unlink(index, volume->links[0]);
+    if (from < index->places.nodes_first) {
+        index->places.fits[from].loose = true;
     }
-    return descend(index, cell - places->cells_first, place, box);
+    link_uncounted(index, object, to, box);
+    count_move(&index->places, from, volume->link_count > 0 ? to : ENF_NONE);
 }
 
 void enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) {
@@ -335,6 +370,10 @@ void enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) {
             places->fits[place].loose = true; /* the old one may have been larger */
         }
         enf_dbv_grow(&index->places, place, volume);
+        return;
+    }
+    if (place != ENF_NONE && index->volumes[object].link_count == 1) {
+        move_link(index, object, old, place, volume);
         return;
     }
     enf_dbv_unhang(index, object);

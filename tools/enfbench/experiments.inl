@@ -9,7 +9,7 @@ BENCH(kd, bench_kd, "kd query with each SIMD variant against brute force over al
       "boxes=1000,10000,100000 frames=200 seed=1")
 BENCH(S1, bench_s1, "Sudarsky & Gotsman 1996, test scene 1: a small cube in a large one, update from the root or the common ancestor",
       "rooms=4096")
-BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table", "boxes=480")
+BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table", "boxes=5745")
 #define MOVERS_KNOBS \
     "rooms=1024 movers=10000 visible=0 speed=1.4 motion=free policy=all eye=walk doors=75 " \
     "door_width=1.25 polygons=0 period=64 frames=600 seed=1 check=50 budget=20"
