@@ -70,6 +70,7 @@ endfunction()
 enf_program(enfc enf_compile)
 enf_program(enfinfo)
 enf_program(enfview enf_gl)
+enf_program(enfreplay enf_gl)
 enf_program(enfbench enf_gl enf_compile)
 if(TARGET enfbench)
   # The benchmark also times what no public header offers (the variants of engine/simd), and finds the levels that it

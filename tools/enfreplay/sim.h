@@ -1,4 +1,4 @@
-/* The simulation that recordings are of: the game of game/sim, as enfreplay sees it. Only sim.c knows the game. */
+/* The simulation that recordings are of, as enfreplay sees it. Only sim.c knows it. */
 #ifndef ENFREPLAY_SIM_H
 #define ENFREPLAY_SIM_H
 
