@@ -202,7 +202,8 @@ uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index);
 /** With trails, enf_world_box and enf_world_bound hold an object also where it was one tick ago, so that a picture between two
  *  ticks, its matrices blended, loses nothing: a blended point lies on the chord between its two places. Objects that were added,
  *  teleported, re-parameterised or sent (a door) in this tick were nowhere else: they do not smear. Off at first. Call it before an
- *  index is made over the world (enf_dbv_create). */
+ *  index is made over the world (enf_dbv_create). A door that comes to rest in this tick still gapes in the pictures before it: its
+ *  portal is closed one tick later (PITFALLS 10). */
 void enf_world_set_trail(EnfWorld *world, bool on);
 bool enf_world_has_trail(const EnfWorld *world);
 
