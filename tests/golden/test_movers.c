@@ -429,6 +429,60 @@ static void the_brightest_lights_are_chosen(void **state) {
     enf_maker_destroy(maker);
 }
 
+static void add_thing(EnfMaker *maker) {
+    enf_maker_mesh(maker, "thing", 0, (EnfBox3){{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}});
+}
+
+/* How much of the slot's light a point gets through its windows, as the shader has it. */
+static float through(const EnfGlMoverLights *lights, uint32_t slot, EnfVec3 p) {
+    int code = (int)lights->vectors[ENF_GL_MOVER_HEAD + slot * ENF_GL_MOVER_LIGHT_VECTORS + 1][3];
+    uint32_t first = ENF_GL_MOVER_HEAD + lights->light_count * ENF_GL_MOVER_LIGHT_VECTORS + (uint32_t)code / 128;
+    float lit = code == 0 ? 1.0f : 0.0f, window = 1.0f;
+    for (uint32_t i = first; i < first + (uint32_t)code % 128; i++) {
+        const float *plane = lights->vectors[i];
+        float inside = plane[0] * (float)p.x + plane[1] * (float)p.y + plane[2] * (float)p.z + plane[3];
+        if (plane[0] == 0.0f && plane[1] == 0.0f && plane[2] == 0.0f) {
+            lit = fmaxf(lit, window);
+            window = 1.0f;
+        } else {
+            window = fminf(window, fminf(fmaxf(inside, 0.0f), 1.0f));
+        }
+    }
+    return lit;
+}
+
+/* Each room's lamp reaches its own room alone: what stands between two has both, each on its own side. */
+static void both_rooms_light_what_stands_between(void **state) {
+    (void)state;
+    EnfRoomsDef def = enf_rooms_def_default();
+    EnfRooms rooms;
+    EnfGlLights lights;
+    EnfGlMoverLights found;
+    def.nx = 2;
+    def.nz = 1;
+    def.extend = add_thing;
+    assert_true(enf_rooms_create(&rooms, &def, NULL));
+    assert_int_equal(enf_gl_lights_build(&lights, rooms.map, NULL), ENF_OK);
+    double wall = enf_rooms_box(&rooms, 0).max.x;
+    EnfDrawMover mover = {.cell_count = 2, .cells = {0, 1}, .box = {{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}}};
+    mover.position_ws = enf_v3(wall, 1.0, 2.5);
+    enf_gl_mover_lights(&found, &lights, rooms.map, &mover);
+    assert_int_equal(found.light_count, 2);
+    for (uint32_t slot = 0; slot < 2; slot++) {
+        double side = found.numbers[slot] == 0 ? -0.1 : 0.1; /* lamps are numbered as rooms are */
+        assert_true(through(&found, slot, enf_v3(side, 0.0, 0.0)) == 1.0f);
+        assert_true(through(&found, slot, enf_v3(-side, 0.0, 0.0)) == 0.0f);
+        assert_true(through(&found, slot, enf_v3(0.0, 0.0, 0.0)) == 1.0f);
+    }
+    mover.cell_count = 1; /* wholly in one room: no window is needed */
+    mover.position_ws.x = wall - 1.0;
+    enf_gl_mover_lights(&found, &lights, rooms.map, &mover);
+    assert_int_equal(found.light_count, 1);
+    assert_true(through(&found, 0, enf_v3(0.4, 0.0, 0.0)) == 1.0f);
+    enf_gl_lights_free(&lights);
+    enf_rooms_destroy(&rooms);
+}
+
 static void shoot_lit_room(bool moves, EnfVec3 eye, double yaw, uint8_t *picture) {
     EnfMaker *maker = make_lit_room(moves);
     EnfError error = {0};
@@ -498,9 +552,10 @@ static void movers_look_like_walls(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(light_does_not_ask_what_is_visible),  cmocka_unit_test(movers_look_like_walls),
-    cmocka_unit_test(culled_equals_unculled_with_egl),     cmocka_unit_test(culled_equals_unculled_with_osmesa),
-    cmocka_unit_test(pictures_between_ticks_lose_nothing), cmocka_unit_test(the_brightest_lights_are_chosen),
+    cmocka_unit_test(light_does_not_ask_what_is_visible),   cmocka_unit_test(movers_look_like_walls),
+    cmocka_unit_test(culled_equals_unculled_with_egl),      cmocka_unit_test(culled_equals_unculled_with_osmesa),
+    cmocka_unit_test(pictures_between_ticks_lose_nothing),  cmocka_unit_test(the_brightest_lights_are_chosen),
+    cmocka_unit_test(both_rooms_light_what_stands_between),
 };
 
 ENF_TEST_MAIN(tests)
