@@ -2,7 +2,9 @@
 
 import fittings
 import furniture
+import moving
 import ornaments
+from meshes import block
 
 PLAIN = {
     "bench": furniture.bench,
@@ -62,6 +64,9 @@ PLAIN = {
     "sarcophagus": fittings.sarcophagus,
     "stove": fittings.stove,
     "hanging_pots": fittings.hanging_pots,
+    "clock_case": moving.clock_case,
+    "plinth": moving.plinth,
+    "post": lambda: block((0.12, 0.12, 1.2), "wood_dark"),
 }
 
 VARIANTS = {

@@ -1,5 +1,6 @@
 """Which theme furnishes which room, in what order: what is built in first, then what is put in."""
 
+import life
 import structure
 import themes
 import themes_service as service
@@ -50,8 +51,10 @@ THEMES = {
 
 
 def furnish(scene, room, feet):
-    """Puts everything into one room; `feet` is the walker's way, which stays free."""
+    """Puts everything into one room; `feet` is the walker's way, which stays free. Returns how much of it moves."""
     placer = Placer(scene, room, feet)
     structure.build(placer)
+    if room.name == "Library":
+        placer.keep_free(*life.LIFT_AT, life.LIFT_SIZE / 2 + 0.9)
     THEMES[room.theme](placer)
-    return placer.count
+    return life.enliven(placer)

@@ -13,6 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import building  # noqa: E402  (Blender runs this file alone; its neighbours need the path above)
 import furnish  # noqa: E402
+import life  # noqa: E402
 import openings  # noqa: E402
 import plan  # noqa: E402
 import tour  # noqa: E402
@@ -49,10 +50,12 @@ def main():
     scene = Scene()
     build_shells(scene, rooms, portals)
     feet = tour.walk(rooms, portals)
-    for room in rooms.values():
-        furnish.furnish(scene, room, feet)
+    movers = sum(furnish.furnish(scene, room, feet) for room in rooms.values())
+    movers += life.populate(scene, rooms, portals)
+    print(f"{movers} things move")
     scene.spawn("EntranceHall", (0.0, -15.0, 0.0), 0.0, EYE)
     tour.write(arguments.tour or Path(__file__).resolve().parents[2] / "maps" / "palace" / "tour.csv", feet)
+    life.write_river(Path(__file__).resolve().parents[2] / "maps" / "palace" / "river.csv", rooms, feet, EYE)
     save(arguments)
     scene.export(str(Path(arguments.output).resolve()))
 

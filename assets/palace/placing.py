@@ -63,6 +63,10 @@ class Placer:
         out = scale(wall.inward, depth)
         return [a, b, add(b, out), add(a, out)]
 
+    def keep_free(self, x, y, reach):
+        """A square of floor that nothing stands on."""
+        self.solids.append(Well([(x - reach, y - reach), (x + reach, y - reach), (x + reach, y + reach), (x - reach, y + reach)]))
+
     # ---- facts -----------------------------------------------------------------------------------------------------
 
     def shape(self, name):
@@ -94,6 +98,7 @@ class Placer:
             height -= min(0.0, self.shape(name).low[2])
         number = f"{self.room.name}_{name.partition('.')[0]}_{self.count}"
         self.scene.piece(self.room.name, number, name, (*at[:2], self.room.floor + height), turn, extras)
+        self.last = (at[:2], turn, height)  # of the piece put last
         if solid:
             self.solids.append(self.outline(name, at, turn))
         return at

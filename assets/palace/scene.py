@@ -1,5 +1,7 @@
 """From plain mesh data to Blender objects: materials, rooms as empties, shells, portals, lights, furniture."""
 
+import math
+
 import bpy
 import numpy as np
 
@@ -16,11 +18,30 @@ MOST_SMOOTH_FACES = 1000
 LIGHT_WATTS = 12.566370614  # the exporter divides a point light's watts by 4 pi to get candelas
 
 
+FRAMES = 60  # a second
+
+
+def quaternion(about_z, about_y=0.0):
+    """(w, x, y, z) of a turn about z after a turn about y."""
+    cz, sz, cy, sy = (f(a / 2) for a in (about_z, about_y) for f in (math.cos, math.sin))
+    return (cz * cy, -sz * sy, cz * sy, sz * cy)
+
+
+def _keys(action, path, axis, frames, values):
+    curve = action.fcurves.new(path, index=axis)
+    curve.keyframe_points.add(len(frames))
+    curve.keyframe_points.foreach_set("co", [number for pair in zip(frames, values) for number in pair])
+    for point in curve.keyframe_points:
+        point.interpolation = "LINEAR"
+    curve.update()
+
+
 class Scene:
     """The Blender file under construction."""
 
     def __init__(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.context.scene.render.fps = FRAMES
         self.collection = bpy.context.scene.collection
         self.images = {}
         self.materials = {}
@@ -148,6 +169,41 @@ class Scene:
         item = self.child(portal.source, f"{portal.target}*{number}-portal", mesh, origin)
         item.hide_render = True
 
+    # ---- what moves ------------------------------------------------------------------------------------------------
+
+    def shared(self, name, build):
+        """The Blender mesh of this name, built once."""
+        if name not in self.meshes:
+            self.meshes[name] = self.mesh(name, build())
+        return self.meshes[name]
+
+    def free(self, name, data, at, turn, extras):
+        """An object that belongs to no room: it goes through several."""
+        item = self._object(name, data, None, at)
+        item.rotation_euler = (0.0, 0.0, turn)
+        for key, value in extras.items():
+            item[key] = value
+        return item
+
+    def animate(self, item, rows, origin=(0.0, 0.0, 0.0)):
+        """Keys of (seconds, place in the world or None, turn about z, or (turn about z, then about y)), straight between them."""
+        turn = item.rotation_euler[2]
+        item.rotation_mode = "QUATERNION"
+        item.rotation_quaternion = quaternion(turn)
+        action = bpy.data.actions.new(item.name)
+        item.animation_data_create().action = action
+        frames = [row[0] * FRAMES for row in rows]
+        if rows[0][1] is not None:
+            places = [sub(row[1], origin) for row in rows]
+            for axis in range(3):
+                _keys(action, "location", axis, frames, [p[axis] for p in places])
+        turns = [quaternion(*row[2]) if isinstance(row[2], tuple) else quaternion(row[2]) for row in rows]
+        for i in range(1, len(turns)):  # the nearer of q and -q
+            if sum(a * b for a, b in zip(turns[i], turns[i - 1])) < 0:
+                turns[i] = tuple(-a for a in turns[i])
+        for axis in range(4):
+            _keys(action, "rotation_quaternion", axis, frames, [q[axis] for q in turns])
+
     def light(self, room_name, number, at, candela, colour, reach):
         lamp = bpy.data.lights.new(f"{room_name}_light_{number}", "POINT")
         lamp.energy = candela * LIGHT_WATTS
@@ -174,7 +230,10 @@ class Scene:
             export_cameras=True,
             export_apply=False,
             export_yup=True,
-            export_animations=False,
+            export_animations=True,
+            export_force_sampling=False,
+            export_frame_range=False,
+            export_nla_strips=False,
             export_skins=False,
             export_morph=False,
             export_image_format="JPEG",

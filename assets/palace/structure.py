@@ -4,6 +4,7 @@ import math
 
 from catalogue import coffer_name, column_name, pillar_name
 from fittings import balustrade, flight
+from life import LIFT_AT, LIFT_SIZE
 from geometry import add, depth_inside, inset, length, lerp, rectangle, scale, sub
 from meshes import Mesh, box
 from openings import WELLS
@@ -181,6 +182,9 @@ def _well_rails(placer, well):
         middle = (y0 + y1) / 2
         half = ((east[0][0], middle), east[1]) if stair.front_north else (east[0], (east[0][0], middle))
         sides = [north if stair.front_north else south, half]
+    if well.upper == "UpperLibrary":  # the elevator's passengers step off here
+        gate = LIFT_AT[0] + LIFT_SIZE / 2 + 0.15
+        sides[2] = (sides[2][0], (gate, sides[2][1][1]))
     for p, q in sides:
         span = length(sub(q, p))
         at, turn = lerp(p, q, 0.5), math.atan2(q[1] - p[1], q[0] - p[0])
