@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scenes/peopled.h"
+
 /** A level of the shared data, and a path through it. */
 typedef struct Level {
     const char *name; /**< "freedoom/MAP01_rooms" */
@@ -50,10 +52,10 @@ static void need_pictures(const char *map) {
 }
 
 /* Verifies each `every`th row of a path; the cells seen go to `cells` unless NULL. */
-static void verify(const char *map, const char *path, uint32_t every, const char *cells) {
+static void verify(const char *map, const char *path, uint32_t every, const char *cells, const char *more) {
     char command[COMMAND_SIZE];
-    snprintf(command, sizeof command, "'%s/enfview' '%s' --path '%s' --every %u --verify --quiet %s%s%s", ENF_BIN_DIR, map,
-             path, every, cells ? "--cells '" : "", cells ? cells : "", cells ? "'" : "");
+    snprintf(command, sizeof command, "'%s/enfview' '%s' --path '%s' --every %u --verify --quiet %s %s%s%s", ENF_BIN_DIR, map,
+             path, every, more, cells ? "--cells '" : "", cells ? cells : "", cells ? "'" : "");
     assert_int_equal(enf_test_shell(command), 0);
 }
 
@@ -139,7 +141,7 @@ static void no_pixel_is_lost(void **state) {
     const char *path = data_file(level, level->path, ".csv");
     const char *map = map_of(level);
     need_pictures(map);
-    verify(map, path, enf_test_long() ? 10 : 601, NULL);
+    verify(map, path, enf_test_long() ? 10 : 601, NULL, "");
 }
 
 static void cells_that_must_be_seen_are(void **state) {
@@ -151,8 +153,30 @@ static void cells_that_must_be_seen_are(void **state) {
     uint32_t every = enf_test_long() ? 1 : 17;
     uint32_t rows = write_eyes(vis, every, eyes);
     assert_true(rows > 0);
-    verify(map, eyes, 1, cells);
+    verify(map, eyes, 1, cells, "");
     assert_int_equal(check_cells(vis, every, cells), rows);
+}
+
+/* Among 200 objects that go about, with volumes of two policies. */
+static void no_pixel_is_lost_among_movers(void **state) {
+    const Level *level = *state;
+    static const char *const options[] = {"--dbv maximal", "--dbv adaptive --cull sequences --window polygon"};
+    const char *path = data_file(level, level->path, ".csv");
+    char name[128];
+    const char *from = map_of(level), *slash = strrchr(level->name, '/');
+    snprintf(name, sizeof name, "peopled_%s.enfmap", slash ? slash + 1 : level->name);
+    const char *peopled = enf_test_temp_path(name);
+    EnfMap map;
+    EnfError error = {0};
+    assert_int_equal(enf_map_read(&map, from, NULL, &error), ENF_OK);
+    if (enf_peopled_write(&map, 200, enf_test_seed(), peopled, &error) != ENF_OK) {
+        fail_msg("%s", error.message);
+    }
+    enf_map_free(&map);
+    need_pictures(peopled);
+    for (int i = 0; i < 2; i++) {
+        verify(peopled, path, enf_test_long() ? 60 : 1201, NULL, options[i]);
+    }
 }
 
 /* X(level, path): levels with cells and portals made by others. */
@@ -171,6 +195,7 @@ static void cells_that_must_be_seen_are(void **state) {
     }
 #define LEVEL_TESTS(name, path)                                                                                                \
     {"no_pixel_is_lost:" name "." path, no_pixel_is_lost, NULL, NULL, LEVEL_STATE(name, path)},                                \
+        {"no_pixel_is_lost_among_movers:" name "." path, no_pixel_is_lost_among_movers, NULL, NULL, LEVEL_STATE(name, path)},  \
         {"cells_that_must_be_seen_are:" name "." path, cells_that_must_be_seen_are, NULL, NULL, LEVEL_STATE(name, path)},
 
 static const struct CMUnitTest tests[] = {LEVELS(LEVEL_TESTS)};
