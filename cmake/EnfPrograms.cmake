@@ -43,6 +43,15 @@ if(scene_sources)
   target_link_libraries(enf_scenes PUBLIC enf_core)
 endif()
 
+# What recordings are of, as enfreplay and the tests of recordings step it: with enf_core alone, so on every machine.
+if(TARGET enf_core)
+  add_library(enf_sim STATIC ${PROJECT_SOURCE_DIR}/tools/enfreplay/sim.c
+                             ${PROJECT_SOURCE_DIR}/tools/enfreplay/doors.c)
+  enf_flags(enf_sim)
+  target_include_directories(enf_sim PRIVATE ${PROJECT_SOURCE_DIR}/tools)
+  target_link_libraries(enf_sim PUBLIC enf_core)
+endif()
+
 # enf_program(NAME LIBRARY...): a program from tools/NAME, if the folder has sources and its libraries are there.
 function(enf_program name)
   enf_glob(sources tools/${name} c)

@@ -255,8 +255,8 @@ static void command_line_is_checked(void **state) {
     EXPECT("run a b", 2, "one recording");
     EXPECT("run a --every 0", 2, "--every");
     EXPECT("verify a --map b --maps c", 2, "exclude each other");
-    EXPECT("record --map a -o b", 2, "one of --script and --mash");
-    EXPECT("record --map a -o b --mash 1 --script c", 2, "one of --script and --mash");
+    EXPECT("record --map a -o b", 2, "one of --script, --path and --mash");
+    EXPECT("record --map a -o b --mash 1 --script c", 2, "one of --script, --path and --mash");
     EXPECT("record --mash 1", 2, "are needed");
     EXPECT("record --map a -o b --mash 1 c", 2, "unexpected argument");
     EXPECT("record --map @/rooms.enfmap -o @/b --mash x", 1, "--mash wants a number");

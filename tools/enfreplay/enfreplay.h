@@ -15,13 +15,14 @@ typedef struct Options {
     uint32_t file_count;
     const char *map, *maps;                      /* a map file; a folder of them */
     const char *script, *output, *title, *start; /* record */
+    const char *path;                            /* record */
     const char *mash, *seed, *map_name;          /* record: numbers of 64 bits, as text; the map's name in the recording */
     uint32_t ticks, fields_every;                /* record; run: no more ticks than that, if not 0 */
     const char *frames, *video, *stats;          /* run */
     uint32_t every, size[2];                     /* run */
     double fov_y_deg, speed;                     /* run */
     int cull, dbv, context;                      /* run: EnfCull, DBV_..., EnfContextKind */
-    bool builder, salvage, force, quiet, json;
+    bool builder, run, salvage, force, quiet, json;
 } Options;
 
 /** --dbv: off, or 1 + EnfDbvPolicy. */

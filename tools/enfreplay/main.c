@@ -34,7 +34,8 @@ static const char about_verify[] =
     "that differs, and the parts of the state that do.";
 static const char about_record[] =
     "Makes a recording on --map from one of: a script (--script), which is a list of inputs if its first line is\n"
-    "\"enfinput 1\" (see tools/enfreplay/README.md) and else one for the game's bot; or random input (--mash SEED).";
+    "\"enfinput 1\" (see tools/enfreplay/README.md) and else one for the game's bot; a camera path to walk along (--path); "
+    "random input (--mash).";
 static const char about_update[] =
     "Plays the input of recordings on the map as it is now, and puts the states that come of it in the place of the recorded\n"
     "ones: after a change that was meant to change them. Also accepts recordings of other maps, games and engines.";
@@ -118,6 +119,8 @@ static EnfCliResult parse_record(Options *o, Arguments arguments) {
     const EnfOption options[] = {
         {"--map", "-m", ENF_OPTION_TEXT, &o->map, "FILE.enfmap", NULL, "the map; needed"},
         {"--script", "-s", ENF_OPTION_TEXT, &o->script, "FILE", NULL, "inputs, or a script for the game's bot"},
+        {"--path", NULL, ENF_OPTION_TEXT, &o->path, "PATH.csv", NULL, "walk along a camera path: time,x,y,z,yaw,pitch"},
+        {"--run", NULL, ENF_OPTION_FLAG, &o->run, NULL, NULL, "--path runs"},
         {"--mash", NULL, ENF_OPTION_TEXT, &o->mash, "SEED", NULL, "random input"},
         {"--builder", NULL, ENF_OPTION_FLAG, &o->builder, NULL, NULL, "--mash also presses noclip and fly"},
         {"--ticks", NULL, ENF_OPTION_COUNT, &o->ticks, "N", NULL, "stop after N ticks (--mash: 3600)"},
@@ -130,8 +133,9 @@ static EnfCliResult parse_record(Options *o, Arguments arguments) {
          "hashes of the state's parts at each Nth tick only: a smaller file (1)"},
         QUIET_OPTION,
     };
-    const EnfCli cli = {"enfreplay record", "--map MAP.enfmap (--script FILE | --mash SEED) -o OUT.enfreplay [options]",
-                        about_record, options, sizeof options / sizeof *options};
+    const EnfCli cli = {"enfreplay record",
+                        "--map MAP.enfmap (--script FILE | --path CSV | --mash SEED) -o OUT.enfreplay [options]", about_record,
+                        options, sizeof options / sizeof *options};
     EnfCliResult result = parse_table(&cli, o, arguments);
     if (result != ENF_CLI_RUN) {
         return result;
@@ -142,8 +146,8 @@ static EnfCliResult parse_record(Options *o, Arguments arguments) {
     if (!o->map || !o->output) {
         return enf_cli_fail(&cli, "--map FILE.enfmap and -o OUT.enfreplay are needed");
     }
-    if ((o->script != NULL) == (o->mash != NULL)) {
-        return enf_cli_fail(&cli, "one of --script and --mash is needed");
+    if ((o->script != NULL) + (o->mash != NULL) + (o->path != NULL) != 1) {
+        return enf_cli_fail(&cli, "one of --script, --path and --mash is needed");
     }
     return ENF_CLI_RUN;
 }

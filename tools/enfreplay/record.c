@@ -1,4 +1,4 @@
-/* Makes recordings: from scripts, from the game's bot, from random input, and from the input of older recordings. */
+/* Makes recordings: from scripts, from paths, from random input, and from the input of older recordings. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,18 +7,21 @@
 #include "enfreplay/enfreplay.h"
 #include "enfreplay/mash.h"
 #include "enfreplay/script.h"
+#include "enfreplay/steer.h"
 
 enum { MASH_TICKS = 3600, SCRIPT_BYTES_MAX = 1 << 20 };
 
 /* Where input comes from. */
-typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_BOT, SOURCE_MASH, SOURCE_REPLAY } SourceKind;
+typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_BOT, SOURCE_MASH, SOURCE_PATH, SOURCE_REPLAY } SourceKind;
 typedef struct Source {
     SourceKind kind;
     uint64_t limit; /* ticks, UINT64_MAX for none */
     Script script;
     Mash mash;
     SimBot *bot;
+    Steer steer;
     EnfReplayCursor cursor;
+    const Session *session;
 } Source;
 
 /* ---- sources ---------------------------------------------------------------------------------------------------- */
@@ -40,6 +43,10 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResul
     case SOURCE_MASH:
         *input = mash_next(&source->mash);
         return true;
+    case SOURCE_PATH: {
+        SimEye eye = sim_eye(source->session->sim);
+        return steer_next(&source->steer, &eye, input);
+    }
     case SOURCE_REPLAY: {
         const EnfReplayTick *recorded = enf_replay_next(&source->cursor);
         *input = recorded ? recorded->input : *input;
@@ -51,6 +58,7 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResul
 
 static void source_close(Source *source) {
     script_free(&source->script);
+    steer_close(&source->steer);
     sim_bot_destroy(source->bot);
 }
 
@@ -84,6 +92,11 @@ static EnfResult open_source(Source *source, Session *session, const Options *op
     source->limit = options->ticks ? options->ticks : UINT64_MAX;
     if (options->script) {
         return open_script(source, session, options->script, error);
+    }
+    if (options->path) {
+        source->kind = SOURCE_PATH;
+        source->session = session;
+        return steer_open(&source->steer, options->path, options->run, error);
     }
     uint64_t seed;
     if (!parse_u64(options->mash, &seed)) {
@@ -137,6 +150,10 @@ static EnfResult record_to(Session *session, Source *source, const EnfReplayHead
     if (result == ENF_OK && !options->quiet) {
         printf("%s: %llu ticks, %.1f s, state %016llx, %s\n", path, (unsigned long long)ticks,
                (double)ticks / (double)header->tick_rate, (unsigned long long)sim_hash(session->sim), sim_phase(session->sim));
+        if (source->kind == SOURCE_PATH && source->steer.given_up > 0) {
+            printf("%s: %u of %u rows of the path could not be reached\n", path, source->steer.given_up,
+                   source->steer.path.count);
+        }
     }
     return result;
 }
@@ -149,13 +166,13 @@ static EnfResult wanted_header(EnfReplayHeader *header, const Options *options, 
     if (options->seed && !parse_u64(options->seed, &header->seed)) {
         return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "--seed wants a number, not %.40s", options->seed);
     }
-    const char *slash = options->script ? strrchr(options->script, '/') : NULL;
+    const char *file = options->script ? options->script : options->path, *slash = file ? strrchr(file, '/') : NULL;
     char source[64];
     snprintf(source, sizeof source, "mash %.40s%s", options->mash ? options->mash : "", options->builder ? " builder" : "");
     snprintf(header->map, sizeof header->map, "%s", session->map_name);
     snprintf(header->start, sizeof header->start, "%s", options->start ? options->start : "");
     snprintf(header->title, sizeof header->title, "%s", options->title ? options->title : "");
-    snprintf(header->script, sizeof header->script, "%s", slash ? slash + 1 : options->script ? options->script : source);
+    snprintf(header->script, sizeof header->script, "%s", slash ? slash + 1 : file ? file : source);
     return ENF_OK;
 }
 

@@ -1,18 +1,22 @@
-/* A visitor as the simulation: the engine's own walking body in the level, and all that moves in it by itself. No rules, no aims. */
+/* A visitor as the simulation: the engine's own walking body in the level, doors and lifts that it uses, and all that moves by
+ * itself. No rules, no aims. */
 #include "enfreplay/sim.h"
 
 #include <enfilade/collide.h>
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "common/cli.h"
+#include "enfreplay/doors.h"
 
 struct Sim {
     const EnfMap *map;
     EnfWorld *world;
     EnfCollider *collider;
     EnfPortals portals;
+    Doors doors;
     EnfCharacter body;
     int64_t yaw, pitch; /* 1/65536 degree; yaw in [0, 360), pitch in [-89, 89] */
     uint32_t buttons;   /* of the last tick */
@@ -27,15 +31,32 @@ struct SimBot {
 static const int64_t TURN = INT64_C(360) * ENF_INPUT_DEGREE, STEEPEST = INT64_C(89) * ENF_INPUT_DEGREE;
 
 const char *sim_game(void) {
-    return "visitor 1";
+    return "visitor 2";
 }
 
 /* ---- start ------------------------------------------------------------------------------------------------------ */
 
+/* "at=X,Y,Z", finite. */
+static bool parse_at(const char *start, double at[3]) {
+    if (strncmp(start, "at=", 3) != 0) {
+        return false;
+    }
+    const char *text = start + 3;
+    for (int i = 0; i < 3; i++) {
+        char *end;
+        at[i] = strtod(text, &end);
+        if (end == text || *end != (i < 2 ? ',' : '\0') || !isfinite(at[i])) {
+            return false;
+        }
+        text = end + 1;
+    }
+    return true;
+}
+
 /* "at=X,Y,Z" of `start`; else the map's player start; else the middle of its first cell. */
 static EnfVec3 place_of(const EnfMap *map, const char *start) {
     double at[3];
-    if (strncmp(start, "at=", 3) == 0 && enf_parse_vector(start + 3, at)) {
+    if (parse_at(start, at)) {
         return enf_v3(at[0], at[1], at[2]);
     }
     for (uint32_t i = 0; i < map->entities_count; i++) {
@@ -64,6 +85,7 @@ EnfResult sim_create(Sim **sim, const EnfMap *map, const EnfReplayHeader *header
     if ((result = enf_portals_create(&made->portals, map, NULL, error)) != ENF_OK ||
         (result = enf_world_create(&made->world, map, map->movers_count, NULL, error)) != ENF_OK ||
         (result = enf_world_populate(made->world, error)) != ENF_OK ||
+        (result = doors_create(&made->doors, made->world, &made->portals, error)) != ENF_OK ||
         (result = enf_collider_create(&made->collider, map, made->world, NULL, error)) != ENF_OK) {
         sim_destroy(made);
         return result;
@@ -77,6 +99,7 @@ EnfResult sim_create(Sim **sim, const EnfMap *map, const EnfReplayHeader *header
 void sim_destroy(Sim *sim) {
     if (sim) {
         enf_collider_destroy(sim->collider);
+        doors_destroy(&sim->doors);
         enf_world_destroy(sim->world);
         enf_portals_destroy(&sim->portals);
         enf_free(NULL, sim, 1, sizeof *sim);
@@ -105,6 +128,13 @@ static EnfVec3 wish_of(const Sim *sim, const EnfInput *input) {
     return length > 1.0 ? enf_scale(wish, 1.0 / length) : wish;
 }
 
+static void use(Sim *sim) {
+    double level = enf_cos(radians(sim->pitch));
+    EnfVec3 forward = enf_v3(-enf_sin(radians(sim->yaw)) * level, enf_sin(radians(sim->pitch)),
+                             -enf_cos(radians(sim->yaw)) * level);
+    doors_use(&sim->doors, enf_character_eye(&sim->body), forward, sim->body.ground_object);
+}
+
 void sim_step(Sim *sim, const EnfInput *input) {
     uint32_t pressed = input->buttons & ~sim->buttons;
     if (pressed & (ENF_BUTTON_NOCLIP | ENF_BUTTON_FLY)) {
@@ -116,17 +146,22 @@ void sim_step(Sim *sim, const EnfInput *input) {
     EnfCharacterInput told = {wish_of(sim, input), (input->buttons & ENF_BUTTON_JUMP) != 0,
                               (input->buttons & ENF_BUTTON_CROUCH) != 0, (input->buttons & ENF_BUTTON_RUN) != 0,
                               (EnfCharacterMode)sim->mode};
-    enf_character_move(&sim->body, sim->collider, &told, NULL);
+    EnfCharacterReport report;
+    if (pressed & ENF_BUTTON_USE) {
+        use(sim);
+    }
+    enf_character_move(&sim->body, sim->collider, &told, &report);
+    doors_tick(&sim->doors, sim->body.position, report.moved & ENF_MOVED_SQUEEZED ? report.squeezed_by : ENF_NONE);
     sim->buttons = input->buttons;
     sim->tick++;
 }
 
 /* ---- what others see of it -------------------------------------------------------------------------------------- */
 
-enum { FIELD_BODY, FIELD_EYE, FIELD_CELL, FIELD_TIME, FIELD_COUNT };
+enum { FIELD_BODY, FIELD_EYE, FIELD_CELL, FIELD_DOORS, FIELD_TIME, FIELD_COUNT };
 
 void sim_name_fields(const Sim *sim, EnfReplayHeader *header) {
-    static const char *const names[FIELD_COUNT] = {"body", "eye", "cell", "time"};
+    static const char *const names[FIELD_COUNT] = {"body", "eye", "cell", "doors", "time"};
     (void)sim;
     header->field_count = FIELD_COUNT;
     for (int i = 0; i < FIELD_COUNT; i++) {
@@ -140,6 +175,7 @@ void sim_fields(const Sim *sim, uint64_t hashes[ENF_REPLAY_FIELDS_MAX]) {
     hashes[FIELD_BODY] = enf_hash64(ENF_HASH_START, &sim->body, sizeof sim->body);
     hashes[FIELD_EYE] = enf_hash64(enf_hash64(ENF_HASH_START, &eye, sizeof eye), gaze, sizeof gaze);
     hashes[FIELD_CELL] = enf_hash64(ENF_HASH_START, &sim->body.cell, sizeof sim->body.cell);
+    hashes[FIELD_DOORS] = doors_hash(&sim->doors);
     hashes[FIELD_TIME] = enf_hash64(ENF_HASH_START, &sim->tick, sizeof sim->tick);
 }
 

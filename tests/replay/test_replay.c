@@ -1,0 +1,241 @@
+/* Every recording of this folder, walked again: the state after each tick is what was recorded, with and without somebody who
+ * looks, and after a restart, on this compiler and this machine.
+ *
+ * The maps are compiled by maps.sh into the folder replay_maps of the build; a build without the compiler (aarch64, MSan) takes those
+ * of build/check, or of ENF_REPLAY_MAPS. Recordings of maps that are not there are named and skipped. */
+#define _XOPEN_SOURCE 700
+#include "enfreplay/sim.h"
+#include "harness/harness.h"
+
+#include <enfilade/vis.h>
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { RECORDINGS_MAX = 256, FAST_TICKS = 3000, LOOKED_TICKS = 600, RECORDINGS_WANTED = 12 };
+
+/* ---- maps and recordings ---------------------------------------------------------------------------------------- */
+
+static char maps_folder[1024];
+static char *names[RECORDINGS_MAX];
+static uint32_t name_count;
+
+static int make_maps(void) {
+    const char *given = getenv("ENF_REPLAY_MAPS");
+    char enfc[1024], command[4096];
+    snprintf(enfc, sizeof enfc, "%s/enfc", ENF_BIN_DIR);
+    if (given) {
+        snprintf(maps_folder, sizeof maps_folder, "%s", given);
+        return 0;
+    }
+    if (access(enfc, X_OK) != 0) {
+        snprintf(maps_folder, sizeof maps_folder, "%s", enf_test_source_path("build/check/replay_maps"));
+        return 0;
+    }
+    snprintf(maps_folder, sizeof maps_folder, "%s/../replay_maps", ENF_BIN_DIR);
+    snprintf(command, sizeof command, "bash '%s' '%s' '%s' 2>&1", enf_test_source_path("tests/replay/maps.sh"), enfc,
+             maps_folder);
+    return enf_test_shell(command);
+}
+
+static int by_name(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static int find_recordings(void **state) {
+    (void)state;
+    DIR *folder = opendir(enf_test_source_path("tests/replay"));
+    struct dirent *entry;
+    while (folder && name_count < RECORDINGS_MAX && (entry = readdir(folder)) != NULL) {
+        const char *ending = strrchr(entry->d_name, '.');
+        if (ending && strcmp(ending, ".enfreplay") == 0) {
+            names[name_count++] = strdup(entry->d_name);
+        }
+    }
+    if (folder) {
+        closedir(folder);
+    }
+    qsort(names, name_count, sizeof *names, by_name);
+    return make_maps();
+}
+
+static int forget_recordings(void **state) {
+    (void)state;
+    while (name_count > 0) {
+        free(names[--name_count]);
+    }
+    return 0;
+}
+
+/* A recording with its map and its simulation. */
+typedef struct Walk {
+    const char *name;
+    EnfReplay replay;
+    EnfMap map;
+    Sim *sim;
+} Walk;
+
+/* False, with a message, where the map is absent. Whatever else fails fails the case. */
+static bool open_walk(Walk *walk, const char *name) {
+    char path[2048];
+    EnfError error = {0};
+    memset(walk, 0, sizeof *walk);
+    walk->name = name;
+    snprintf(path, sizeof path, "%s/%s", enf_test_source_path("tests/replay"), name);
+    if (enf_replay_read(&walk->replay, path, ENF_REPLAY_WHOLE, NULL, &error) != ENF_OK) {
+        fail_msg("%s: %s", name, error.message);
+    }
+    snprintf(path, sizeof path, "%s/%s.enfmap", maps_folder, walk->replay.header.map);
+    if (access(path, R_OK) != 0) {
+        printf("skipped: %s, for want of the map %s\n", name, walk->replay.header.map);
+        enf_replay_free(&walk->replay);
+        return false;
+    }
+    if (enf_map_read(&walk->map, path, NULL, &error) != ENF_OK ||
+        enf_replay_accept(&walk->replay, sim_game(), path, walk->map.hash, &error) != ENF_OK ||
+        sim_create(&walk->sim, &walk->map, &walk->replay.header, &error) != ENF_OK) {
+        fail_msg("%s: %s (tests/replay/record_all.sh makes the recordings anew)", name, error.message);
+    }
+    assert_true(sim_hash(walk->sim) == walk->replay.header.start_hash);
+    return true;
+}
+
+static void close_walk(Walk *walk) {
+    sim_destroy(walk->sim);
+    enf_map_free(&walk->map);
+    enf_replay_free(&walk->replay);
+}
+
+/* ---- walking ---------------------------------------------------------------------------------------------------- */
+
+/* Fails, naming tick and fields, where the state after `tick` is not what was recorded. */
+static void expect_state(const Walk *walk, const EnfReplayTick *tick) {
+    uint64_t fields[ENF_REPLAY_FIELDS_MAX];
+    EnfReplayDivergence divergence;
+    sim_fields(walk->sim, fields);
+    if (!enf_replay_compare(&walk->replay, tick, sim_hash(walk->sim), fields, &divergence)) {
+        char differing[1024] = "";
+        for (uint32_t i = 0; i < walk->replay.header.field_count; i++) {
+            if (divergence.differing >> i & 1) {
+                strcat(strcat(differing, " "), walk->replay.header.fields[i]);
+            }
+        }
+        fail_msg("%s: diverged at tick %llu; fields:%s", walk->name, (unsigned long long)tick->tick, differing);
+    }
+}
+
+/* The eye looks on at each tick: visibility, and volumes for what moves. */
+typedef struct Onlooker {
+    EnfVis *vis;
+    EnfDbvIndex *dbv;
+    uint64_t seen;
+} Onlooker;
+
+static void look(Onlooker *onlooker, Sim *sim, EnfCull cull) {
+    SimEye eye = sim_eye(sim);
+    EnfView view = enf_view_default();
+    view.camera = enf_camera(eye.eye_ws, enf_turn(eye.yaw_deg, eye.pitch_deg, 0.0), 70.0, 320, 240);
+    view.cell = eye.cell;
+    view.cull = cull;
+    view.dbv = onlooker->dbv;
+    onlooker->seen += enf_vis_run(onlooker->vis, sim_portals(sim), &view)->entry_count;
+}
+
+static Onlooker make_onlooker(const Walk *walk, EnfDbvPolicy policy) {
+    Onlooker onlooker = {NULL, NULL, 0};
+    EnfDbvDef def = enf_dbv_def_default();
+    EnfError error;
+    def.policy = policy;
+    assert_int_equal(enf_vis_create(&onlooker.vis, &walk->map, NULL, &error), ENF_OK);
+    assert_int_equal(enf_dbv_create(&onlooker.dbv, sim_world(walk->sim), &def, NULL, &error), ENF_OK);
+    return onlooker;
+}
+
+/* Walks up to `limit` ticks; `policy` < 0: nobody looks. Returns the ticks walked, 0 where the map is absent. */
+static uint64_t walk_again(const char *name, uint64_t limit, int policy) {
+    Walk walk;
+    Onlooker onlooker = {NULL, NULL, 0};
+    if (!open_walk(&walk, name)) {
+        return 0;
+    }
+    if (policy >= 0) {
+        onlooker = make_onlooker(&walk, (EnfDbvPolicy)policy);
+    }
+    EnfReplayCursor cursor = enf_replay_begin(&walk.replay);
+    const EnfReplayTick *tick;
+    uint64_t ticks = 0;
+    while (ticks < limit && (tick = enf_replay_next(&cursor)) != NULL) {
+        sim_step(walk.sim, &tick->input);
+        if (onlooker.vis) {
+            look(&onlooker, walk.sim, ticks % 7 == 3 ? ENF_CULL_FRUSTUM : ENF_CULL_WORKLIST);
+        }
+        expect_state(&walk, tick);
+        ticks++;
+    }
+    enf_dbv_destroy(onlooker.dbv);
+    enf_vis_destroy(onlooker.vis);
+    close_walk(&walk);
+    return ticks;
+}
+
+static void every_recording_is_walked_again(void **state) {
+    (void)state;
+    uint64_t ticks = 0;
+    assert_true(name_count >= RECORDINGS_WANTED);
+    for (uint32_t i = 0; i < name_count; i++) {
+        ticks += walk_again(names[i], enf_test_long() ? UINT64_MAX : FAST_TICKS, -1);
+    }
+    printf("%u recordings, %llu ticks\n", name_count, (unsigned long long)ticks);
+}
+
+/* Whoever looks changes nothing: visibility at every tick, with volumes of each policy in turn. */
+static void looking_changes_nothing(void **state) {
+    (void)state;
+    for (uint32_t i = 0; i < name_count; i++) {
+        for (int policy = ENF_DBV_CONSTANT; policy <= ENF_DBV_REACH; policy++) {
+            if (enf_test_long() || policy == (int)(i % (ENF_DBV_REACH + 1))) {
+                walk_again(names[i], enf_test_long() ? 10 * LOOKED_TICKS : LOOKED_TICKS, policy);
+            }
+        }
+    }
+}
+
+/* A recording lists itself, and the list names no other. */
+static void list_is_complete(void **state) {
+    (void)state;
+    size_t size;
+    char *list = (char *)enf_test_read_file(enf_test_source_path("tests/replay/recordings.list"), &size);
+    uint32_t lines = 0;
+    for (char *line = strtok(list, "\n"); line; line = strtok(NULL, "\n")) {
+        size_t length = strcspn(line, " |");
+        if (line[0] == '#' || length == 0) {
+            continue;
+        }
+        char name[256];
+        snprintf(name, sizeof name, "%.*s.enfreplay", (int)length, line);
+        uint32_t i = 0;
+        while (i < name_count && strcmp(names[i], name) != 0) {
+            i++;
+        }
+        if (i == name_count) {
+            fail_msg("%s is in recordings.list, and there is no such file", name);
+        }
+        lines++;
+    }
+    free(list);
+    assert_int_equal(lines, name_count);
+}
+
+static const struct CMUnitTest tests[] = {
+    cmocka_unit_test(list_is_complete),
+    cmocka_unit_test(every_recording_is_walked_again),
+    cmocka_unit_test(looking_changes_nothing),
+};
+
+int main(int argc, char **argv) {
+    enf_test_begin(argc, argv);
+    return enf_test_end(cmocka_run_group_tests(tests, find_recordings, forget_recordings));
+}

@@ -1,0 +1,99 @@
+/* Walks to one row of a path after another: turns towards it, goes ahead when it looks there. */
+#include "enfreplay/steer.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Metres: a row nearer than ARRIVED is behind; STRIDE of the path are skipped where there is no way on. Degrees: TURN a tick at
+ * most; ahead only if the row lies within CONE. Ticks without coming nearer: then it uses what is there, goes about it, jumps, gives up. */
+static const double ARRIVED = 0.7, FLOOR = 2.2, STRIDE = 1.5, TURN_DEG = 9.0, CONE_DEG = 50.0, NEARER = 0.02;
+enum { USE_AFTER = 15, SIDESTEP_AFTER = 45, SIDESTEP_TICKS = 30, JUMP_AFTER = 170, GIVE_UP_AFTER = 260 };
+
+EnfResult steer_open(Steer *steer, const char *path, bool run, EnfError *error) {
+    memset(steer, 0, sizeof *steer);
+    steer->nearest = HUGE_VAL;
+    steer->run = run;
+    return enf_path_csv_read(&steer->path, path, error);
+}
+
+void steer_close(Steer *steer) {
+    enf_path_csv_free(&steer->path);
+}
+
+static EnfVec3 row_at(const Steer *steer, uint32_t row) {
+    const EnfPathRow *r = &steer->path.rows[row];
+    return enf_v3(r->x, r->y, r->z);
+}
+
+static double across(EnfVec3 way) {
+    return sqrt(way.x * way.x + way.z * way.z);
+}
+
+static void aim_at(Steer *steer, uint32_t row) {
+    steer->next = row;
+    steer->nearest = HUGE_VAL;
+    steer->vain = 0;
+}
+
+/* Rows that are reached are done with; one that cannot be reached is given up for one a stride farther on. */
+static void advance(Steer *steer, EnfVec3 eye_ws) {
+    uint32_t row = steer->next;
+    while (row < steer->path.count) {
+        EnfVec3 way = enf_sub(row_at(steer, row), eye_ws);
+        if (across(way) > ARRIVED || fabs(way.y) > FLOOR) {
+            break;
+        }
+        row++;
+    }
+    if (row != steer->next) {
+        aim_at(steer, row);
+    } else if (steer->vain >= GIVE_UP_AFTER) {
+        double walked = 0.0;
+        while (row + 1 < steer->path.count && walked < STRIDE) {
+            walked += enf_length(enf_sub(row_at(steer, row + 1), row_at(steer, row)));
+            row++;
+        }
+        steer->given_up += row - steer->next;
+        aim_at(steer, walked < STRIDE ? steer->path.count : row);
+    }
+}
+
+/* Degrees from where the eye looks to where the way leads, in -180..180. */
+static double turn_to(const SimEye *eye, EnfVec3 way) {
+    double wanted = enf_atan2(-way.x, -way.z) * (180.0 / 3.14159265358979323846);
+    return remainder(wanted - eye->yaw_deg, 360.0);
+}
+
+bool steer_next(Steer *steer, const SimEye *eye, EnfInput *input) {
+    advance(steer, eye->eye_ws);
+    memset(input, 0, sizeof *input);
+    if (steer->next >= steer->path.count) {
+        return false;
+    }
+    EnfVec3 way = enf_sub(row_at(steer, steer->next), eye->eye_ws);
+    double distance = across(way), turn = turn_to(eye, way);
+    if (distance < steer->nearest - NEARER) {
+        steer->nearest = distance;
+        steer->vain = 0;
+    } else {
+        steer->vain++;
+    }
+    double step = turn > TURN_DEG ? TURN_DEG : turn < -TURN_DEG ? -TURN_DEG : turn;
+    input->yaw = (int32_t)lround(step * ENF_INPUT_DEGREE);
+    input->pitch = -(int32_t)lround(remainder(eye->pitch_deg, 360.0) * 0.1 * ENF_INPUT_DEGREE);
+    input->forward = fabs(turn) < CONE_DEG ? 32767 : 0;
+    input->buttons = steer->run && fabs(turn) < CONE_DEG / 3.0 && distance > 2.0 * ARRIVED ? ENF_BUTTON_RUN : 0;
+    if (steer->vain >=
+        SIDESTEP_AFTER) { /* about what is in the way: ever wider, to one side and the other, backing off at first */
+        uint32_t turn_of = (steer->vain - SIDESTEP_AFTER) / SIDESTEP_TICKS;
+        input->right = turn_of % 3 == 0 ? 32767 : -32767;
+        input->forward = turn_of % 3 == 1 ? -16384 : input->forward;
+    }
+    if (steer->vain > JUMP_AFTER && steer->vain % 60 < 10) {
+        input->buttons |= ENF_BUTTON_JUMP;
+    }
+    if (steer->vain % 140 == USE_AFTER) {
+        input->buttons |= ENF_BUTTON_USE;
+    }
+    return true;
+}
