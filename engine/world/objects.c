@@ -248,6 +248,11 @@ uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index) {
     return world->objects[index].mesh;
 }
 
+const EnfMotion *enf_world_motion(const EnfWorld *world, uint32_t index) {
+    ENF_ASSERT(index < world->limit);
+    return &world->motions[index];
+}
+
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index) {
     const EnfMotion *motion = &world->motions[index];
     if (motion->kind == ENF_MOTION_FREE) {

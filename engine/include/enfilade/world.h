@@ -207,6 +207,9 @@ uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index);
 void enf_world_set_trail(EnfWorld *world, bool on);
 bool enf_world_has_trail(const EnfWorld *world);
 
+/** How a living object moves; valid until the world is changed. */
+const EnfMotion *enf_world_motion(const EnfWorld *world, uint32_t index);
+
 /** Pose and world box (float, rounded outward) of a living object at the world's tick; each counts as one evaluation. */
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index);
 EnfBox3f enf_world_box(EnfWorld *world, uint32_t index);

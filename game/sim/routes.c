@@ -1,0 +1,207 @@
+/* The portal graph: shortest ways from doorway to doorway (Dijkstra 1959, with a binary heap), for ears and for feet. */
+#include "sim/sim.h"
+
+#include <math.h>
+
+/* Metres that a shut door adds to a sound's way. */
+#define SHUT_DOOR 6.0
+/* A doorway is walked through if it is this high, and its sill no higher than a step above its floors. */
+#define WALK_HEIGHT 1.6
+#define WALK_WIDTH 0.6
+
+/* ---- doorways ------------------------------------------------------------------------------------------------------ */
+
+static SimGate make_gate(const EnfMap *map, uint32_t index) {
+    const EnfPortal *portal = &map->portals[index];
+    const double *o = map->cells[portal->source].origin;
+    EnfVec3 sum = enf_v3(0.0, 0.0, 0.0);
+    EnfBox3 box = enf_box3_empty();
+    for (uint32_t i = 0; i < portal->vertex_count; i++) {
+        EnfVec3 p = enf_add(enf_v3_from_f(map->portal_vertices[portal->vertex_first + i]), enf_v3(o[0], o[1], o[2]));
+        sum = enf_add(sum, p);
+        box = enf_box3_add(box, p);
+    }
+    SimGate gate = {enf_v3(o[0], o[1], o[2]), enf_v3(o[0], o[1], o[2]), false};
+    if (portal->vertex_count == 0) {
+        return gate; /* an overlap: nowhere in particular */
+    }
+    gate.middle = enf_scale(sum, 1.0 / (double)portal->vertex_count);
+    gate.foot = enf_v3(gate.middle.x, box.min.y, gate.middle.z);
+    EnfVec3 size = enf_sub(box.max, box.min);
+    double floor = map->cells[portal->source].origin[1] + (double)map->cells[portal->source].min[1];
+    bool upright = size.y >= WALK_HEIGHT && sqrt(size.x * size.x + size.z * size.z) >= WALK_WIDTH;
+    bool low = box.min.y - floor < 0.6 || portal->vertex_count > 8;
+    gate.walkable = portal->transform == ENF_NONE && upright && low;
+    return gate;
+}
+
+bool sim_gates_create(Game *game) {
+    for (uint32_t i = 0; i < game->map->portals_count; i++) {
+        game->gates[i] = make_gate(game->map, i);
+    }
+    return true;
+}
+
+/* ---- a heap of half-portals by distance ----------------------------------------------------------------------------- */
+
+static bool nearer(const SimWays *ways, uint32_t a, uint32_t b) {
+    return ways->distance[a] < ways->distance[b] || (!(ways->distance[b] < ways->distance[a]) && a < b);
+}
+
+static void put(SimWays *ways, uint32_t at, uint32_t portal) {
+    ways->heap[at] = portal;
+    ways->place[portal] = at + 1;
+}
+
+static void rise(SimWays *ways, uint32_t at) {
+    uint32_t portal = ways->heap[at];
+    while (at > 0 && nearer(ways, portal, ways->heap[(at - 1) / 2])) {
+        put(ways, at, ways->heap[(at - 1) / 2]);
+        at = (at - 1) / 2;
+    }
+    put(ways, at, portal);
+}
+
+static void sink(SimWays *ways, uint32_t at) {
+    uint32_t portal = ways->heap[at];
+    for (uint32_t child = 2 * at + 1; child < ways->heap_count; child = 2 * at + 1) {
+        child += child + 1 < ways->heap_count && nearer(ways, ways->heap[child + 1], ways->heap[child]);
+        if (!nearer(ways, ways->heap[child], portal)) {
+            break;
+        }
+        put(ways, at, ways->heap[child]);
+        at = child;
+    }
+    put(ways, at, portal);
+}
+
+static uint32_t pop(SimWays *ways) {
+    uint32_t first = ways->heap[0];
+    ways->place[first] = 0;
+    if (--ways->heap_count > 0) {
+        put(ways, 0, ways->heap[ways->heap_count]);
+        sink(ways, 0);
+    }
+    return first;
+}
+
+/* ---- ways ------------------------------------------------------------------------------------------------------------ */
+
+static void reach(SimWays *ways, uint32_t portal, double distance, uint32_t before) {
+    if (!(distance < ways->distance[portal])) {
+        return;
+    }
+    ways->distance[portal] = distance;
+    ways->before[portal] = before;
+    if (ways->place[portal] == 0) {
+        put(ways, ways->heap_count++, portal);
+    }
+    rise(ways, ways->place[portal] - 1);
+}
+
+/* From a place in a cell, `run` metres on the way, through each of its portals; `before`: the portal by which it was entered. */
+static void leave_cell(const Game *game, SimWays *ways, uint32_t cell, EnfVec3 at, uint32_t before) {
+    const EnfCell *c = &game->map->cells[cell];
+    double run = before == ENF_NONE ? 0.0 : ways->distance[before];
+    for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+        double shut = enf_portals_is_open(&game->portals, p) ? 0.0 : SHUT_DOOR;
+        reach(ways, p, run + enf_length(enf_sub(game->gates[p].middle, at)) + shut, before);
+    }
+}
+
+/* Nothing is reached yet. */
+static void clear(const Game *game, SimWays *ways) {
+    for (uint32_t i = 0; i < game->map->portals_count; i++) {
+        ways->distance[i] = HUGE_VAL;
+        ways->before[i] = ENF_NONE;
+        ways->place[i] = 0;
+    }
+    ways->heap_count = 0;
+}
+
+void sim_ways_find(Game *game, SimWays *ways, EnfVec3 from, uint32_t cell, double most) {
+    const EnfMap *map = game->map;
+    clear(game, ways);
+    ways->from = from;
+    ways->cell = cell;
+    if (cell >= map->cells_count) {
+        return;
+    }
+    leave_cell(game, ways, cell, from, ENF_NONE);
+    while (ways->heap_count > 0) {
+        uint32_t portal = pop(ways);
+        if (ways->distance[portal] > most) {
+            break;
+        }
+        leave_cell(game, ways, map->portals[portal].target, game->gates[portal].middle, portal);
+    }
+}
+
+double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t cell, uint32_t *last) {
+    *last = ENF_NONE;
+    if (cell == ways->cell) {
+        return enf_length(enf_sub(to, ways->from));
+    }
+    double best = HUGE_VAL;
+    if (cell >= game->map->cells_count) {
+        return best;
+    }
+    const EnfCell *c = &game->map->cells[cell];
+    for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+        uint32_t twin = game->map->portals[p].twin;
+        if (twin == ENF_NONE) {
+            continue;
+        }
+        double way = ways->distance[twin] + enf_length(enf_sub(to, game->gates[twin].middle));
+        if (way < best) {
+            best = way;
+            *last = twin;
+        }
+    }
+    return best;
+}
+
+/* ---- on foot ----------------------------------------------------------------------------------------------------------- */
+
+/* Shortest on foot: doorways that can be walked through alone, shut ones too (they can be opened). Points before and behind each, so
+ * that nobody cuts its corners. */
+uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uint32_t to_cell, EnfVec3 out[SIM_ROUTE_MAX]) {
+    const EnfMap *map = game->map;
+    SimWays *ways = &game->ways;
+    if (from_cell >= map->cells_count || to_cell >= map->cells_count) {
+        return 0;
+    }
+    clear(game, ways);
+    uint32_t cell = from_cell, passed = ENF_NONE;
+    while (cell != to_cell) {
+        EnfVec3 at = passed == ENF_NONE ? from : game->gates[passed].foot;
+        double run = passed == ENF_NONE ? 0.0 : ways->distance[passed];
+        const EnfCell *c = &map->cells[cell];
+        for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+            if (game->gates[p].walkable) {
+                reach(ways, p, run + enf_length(enf_sub(game->gates[p].foot, at)), passed);
+            }
+        }
+        if (ways->heap_count == 0) {
+            return 0;
+        }
+        passed = pop(ways);
+        cell = map->portals[passed].target;
+    }
+    uint32_t gates[SIM_ROUTE_MAX], count = 0, made = 0;
+    for (; passed != ENF_NONE; passed = ways->before[passed]) {
+        if (count == SIM_ROUTE_MAX / 2 - 1) {
+            return 0; /* farther than anybody chases */
+        }
+        gates[count++] = passed;
+    }
+    while (count-- > 0) {
+        const EnfPortalState *state = &game->portals.states[gates[count]];
+        EnfVec3 flat = enf_v3(state->normal.x, 0.0, state->normal.z), foot = game->gates[gates[count]].foot;
+        EnfVec3 step = enf_scale(enf_normalize(flat), 0.55);
+        out[made++] = enf_sub(foot, step);
+        out[made++] = enf_add(foot, step);
+    }
+    out[made++] = to;
+    return made;
+}

@@ -1,0 +1,188 @@
+/* What the files of this room share. Everything hashed is plain data without padding. */
+#ifndef ENF_GAME_SIM_SIM_H
+#define ENF_GAME_SIM_SIM_H
+
+#include "sim/game.h"
+
+enum { SIM_SOUNDS_MAX = 64, SIM_KEY_SIZE = 32, SIM_STOPS_MAX = 32, SIM_ROUTE_MAX = 64 };
+
+/** Metres: how far a hand reaches. */
+#define SIM_REACH 2.0
+
+/* ---- the state --------------------------------------------------------------------------------------------------- */
+
+typedef struct SimPlayer {
+    EnfCharacter body;
+    int32_t yaw, pitch; /**< 1/65536 degree */
+    uint32_t buttons;   /**< of the tick before */
+    uint32_t steps;     /**< footsteps made */
+    double stride;      /**< metres since the last */
+} SimPlayer;
+
+typedef struct SimDoor {
+    EnfObjectId object;
+    uint32_t mover, portal;
+    uint64_t key;    /**< hash of the key's name; 0: none */
+    uint64_t name;   /**< hash of targetname; leaves with one name open together */
+    double wanted;   /**< radians or metres */
+    double open;     /**< the far end of its range: where opening leads */
+    int64_t shut_at; /**< tick at which it begins to close, or INT64_MAX */
+    int64_t stays;   /**< ticks that it stays open; 0: for ever */
+    uint32_t locked, moving;
+} SimDoor;
+
+typedef struct SimLift {
+    EnfObjectId object;
+    uint32_t mover, stop, stop_count, moving;
+    uint64_t name;
+    double stops[SIM_STOPS_MAX];
+} SimLift;
+
+typedef struct SimButton {
+    uint32_t object, stop; /**< ENF_NONE: the next stop */
+    uint64_t target;
+} SimButton;
+
+typedef enum SimItemState { SIM_ITEM_LIES, SIM_ITEM_CARRIED, SIM_ITEM_OUT } SimItemState;
+typedef struct SimItem {
+    EnfObjectId object;
+    uint32_t mover, state, value, is_key;
+    uint64_t key; /**< hash of the name of what it opens; of a key */
+    EnfVec3 at;   /**< where it lies */
+} SimItem;
+
+typedef struct SimGuard {
+    EnfObjectId object;
+    uint32_t mover, mood;
+    EnfCharacter body;
+    double yaw_deg, notice;
+    EnfVec3 last_seen; /**< where the player was when seen or heard last */
+    int64_t until;     /**< tick at which the mood ends */
+    int64_t start;     /**< tick at which its round's path began: time 0 */
+    double stride;
+    uint32_t sees, route_count;
+    EnfVec3 route[SIM_ROUTE_MAX]; /**< the way it goes when off its round, next first */
+    int64_t route_at;             /**< tick at which it was found */
+} SimGuard;
+
+typedef struct SimScore {
+    uint64_t tick;
+    uint32_t phase, delivered, value, wanted;
+} SimScore;
+
+/* ---- the portal graph (routes.c) ----------------------------------------------------------------------------------- */
+
+/** A doorway: the middle of a portal on the floor, and how far its sill is above the floor. */
+typedef struct SimGate {
+    EnfVec3 middle, foot;
+    bool walkable;
+} SimGate;
+
+/** Shortest ways from a point through portals. */
+typedef struct SimWays {
+    EnfVec3 from;
+    uint32_t cell;
+    double *distance; /**< a half-portal: metres to its middle, or HUGE_VAL */
+    uint32_t *before; /**< the half-portal passed before, or ENF_NONE */
+    uint32_t *heap, *place, heap_count;
+} SimWays;
+
+struct Game {
+    GameDef def;
+    EnfAllocator allocator;
+    const EnfMap *map;
+    EnfWorld *world;
+    EnfPortals portals;
+    EnfVis *eyes; /**< the guards' */
+    EnfCollider *collider;
+    SimGate *gates; /**< a half-portal */
+    SimWays ways, ears;
+    double usual_light;
+    EnfVec3 spawn;
+    int32_t spawn_yaw;
+    EnfBox3 exit_ws; /**< empty: there is none */
+
+    SimPlayer player;
+    SimDoor *doors;
+    SimLift *lifts;
+    SimButton *buttons;
+    SimItem *items;
+    SimGuard *guards;
+    uint32_t door_count, lift_count, button_count, item_count, guard_count;
+    uint32_t mover_room; /**< allocated of each of the five above */
+    SimScore score;
+    uint64_t random;
+
+    GameState shown;
+    GameGuardView *guard_views;
+    GameSound sounds[SIM_SOUNDS_MAX];
+    uint32_t sound_count;
+    int64_t message_until;
+    bool ears_ready;
+};
+
+/* ---- extras.c ------------------------------------------------------------------------------------------------------ */
+
+/** The value of `key` in a flat JSON object as text (strings without quotes, escapes left as they are), cut to `size`; false if absent. */
+bool sim_extra(const char *extras, const char *key, char *out, size_t size);
+/** The same as a number; `standard` if absent or none. Accepts what a person writes: sign, digits, point, exponent. */
+double sim_extra_number(const char *extras, const char *key, double standard);
+/** A hash of a name; 0 for "". */
+uint64_t sim_name(const char *text);
+
+/* ---- game.c --------------------------------------------------------------------------------------------------------- */
+
+uint64_t sim_random(Game *game);
+int64_t sim_tick(const Game *game);
+void sim_say(Game *game, const char *text);
+void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, double loudness);
+/** Degrees as the player looks: a unit vector. */
+EnfVec3 sim_look(double yaw_deg, double pitch_deg);
+
+/* ---- the parts ------------------------------------------------------------------------------------------------------- */
+
+void sim_player_start(Game *game);
+void sim_player_step(Game *game, const EnfInput *input);
+
+void sim_doors_start(Game *game);
+void sim_doors_step(Game *game);
+/** Opens the door (and the leaves of its name) if it may: `keys` true for who has a key to everything. False if it is locked. */
+bool sim_door_open(Game *game, uint32_t door, bool keys);
+/** The nearest door within `reach` of a point, towards `look` (zero: any side); ENF_NONE. */
+uint32_t sim_door_near(const Game *game, EnfVec3 at, EnfVec3 look, double reach);
+
+void sim_lifts_start(Game *game);
+void sim_lifts_step(Game *game);
+void sim_lift_call(Game *game, uint64_t name, uint32_t stop);
+
+void sim_items_start(Game *game);
+void sim_items_step(Game *game);
+/** What `use` means where the player stands; does it if `now`. Fills the prompt. */
+void sim_use(Game *game, bool now);
+void sim_drop(Game *game);
+bool sim_has_key(const Game *game, uint64_t key);
+
+void sim_guards_start(Game *game);
+void sim_guards_step(Game *game);
+/** Something was heard at a place, `loudness` metres far. */
+void sim_guards_hear(Game *game, EnfVec3 at, double metres);
+
+/** How much of the player a guard's eye sees, 0..1: 0 without a window onto him, a free line, or light (sight.c). */
+double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look);
+/** The light at a point of a cell, 0..1, against what is usual in this map. */
+double sim_light(const Game *game, uint32_t cell, EnfVec3 at);
+double sim_usual_light(const Game *game);
+
+bool sim_gates_create(Game *game);
+void sim_ways_find(Game *game, SimWays *ways, EnfVec3 from, uint32_t cell, double most);
+/** Metres along the ways to a point of a cell; `last` the half-portal by which it is entered (ENF_NONE: same cell). HUGE_VAL if none. */
+double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t cell, uint32_t *last);
+/** The way on foot from one place to another, as points; 0 if there is none. */
+uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uint32_t to_cell, EnfVec3 out[SIM_ROUTE_MAX]);
+
+/** Fills in how the player hears a sound. */
+void sim_hear(Game *game, GameSound *sound);
+
+void sim_show(Game *game);
+
+#endif
