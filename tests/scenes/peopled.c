@@ -81,31 +81,47 @@ static uint32_t find_material(const EnfMap *map, EnfAlphaMode mode) {
 
 /* ---- movers ----------------------------------------------------------------------------------------------------- */
 
-static EnfVec3 place_in(const EnfMap *map, uint32_t cell, uint64_t *random) {
+/* A point of the middle of a cell's bounds, `share` of each axis. */
+static EnfVec3 place_in(const EnfMap *map, uint32_t cell, double share, uint64_t *random) {
     const EnfCell *c = &map->cells[cell];
-    EnfVec3 p = {between(random, (double)c->min[0], (double)c->max[0]), between(random, (double)c->min[1], (double)c->max[1]),
-                 between(random, (double)c->min[2], (double)c->max[2])};
-    return enf_add(p, enf_v3(c->origin[0], c->origin[1], c->origin[2]));
+    double p[3];
+    for (int i = 0; i < 3; i++) {
+        double middle = 0.5 * ((double)c->min[i] + (double)c->max[i]), half = 0.5 * share * (double)(c->max[i] - c->min[i]);
+        p[i] = c->origin[i] + middle + between(random, -half, half);
+    }
+    return enf_v3(p[0], p[1], p[2]);
 }
 
-/* Places of the cell and of those behind its portals, there and back, at 2 m/s. Returns the seconds. */
+static EnfVec3 middle_of(const EnfMap *map, const EnfPortal *portal) {
+    const double *o = map->cells[portal->source].origin;
+    EnfBox3 box = enf_box3_empty();
+    for (uint32_t v = 0; v < portal->vertex_count; v++) {
+        box = enf_box3_add(box, enf_v3_from_f(map->portal_vertices[portal->vertex_first + v]));
+    }
+    return enf_add(enf_v3(o[0], o[1], o[2]), enf_scale(enf_add(box.min, box.max), 0.5));
+}
+
+/* There and back at 2 m/s: by a cubic in one cell, or straight through the middle of a portal into the next. Either way it stays within
+ * the bounds of these cells: what is in no cell is seen by nobody (engine/draw/README.md). Returns the seconds. */
 static float put_path(const EnfMap *map, uint32_t cell, bool cubic, float *floats, uint64_t *random) {
     float points[3 * KEYS];
-    EnfVec3 last = {0, 0, 0};
+    EnfVec3 way[KEYS];
     const EnfCell *c = &map->cells[cell];
     for (uint32_t k = 0; k < KEYS; k++) {
-        uint32_t at = cell;
-        if (k % 2 && c->portal_count > 0) {
-            at = map->portals[c->portal_first + next_random(random) % c->portal_count].target;
-        }
-        EnfVec3 p = place_in(map, at, random);
-        points[3 * k] = k + 1 == KEYS ? points[0] : (float)p.x;
-        points[3 * k + 1] = k + 1 == KEYS ? points[1] : (float)p.y;
-        points[3 * k + 2] = k + 1 == KEYS ? points[2] : (float)p.z;
-        p = enf_v3((double)points[3 * k], (double)points[3 * k + 1], (double)points[3 * k + 2]);
-        double way = k > 0 ? enf_length(enf_sub(p, last)) : 0.0;
-        floats[k] = k > 0 ? floats[k - 1] + (float)(0.1 + 0.5 * way) : 0.0f;
-        last = p;
+        way[k] = place_in(map, cell, cubic ? 0.5 : 0.9, random);
+    }
+    const EnfPortal *portal = c->portal_count ? &map->portals[c->portal_first + next_random(random) % c->portal_count] : NULL;
+    if (!cubic && portal && portal->vertex_count > 0 && portal->transform == ENF_NONE) {
+        way[1] = way[3] = middle_of(map, portal);
+        way[2] = place_in(map, portal->target, 0.9, random);
+    }
+    way[KEYS - 1] = way[0];
+    for (uint32_t k = 0; k < KEYS; k++) {
+        points[3 * k] = (float)way[k].x;
+        points[3 * k + 1] = (float)way[k].y;
+        points[3 * k + 2] = (float)way[k].z;
+        double length = k > 0 ? enf_length(enf_sub(way[k], way[k - 1])) : 0.0;
+        floats[k] = k > 0 ? floats[k - 1] + (float)(0.1 + 0.5 * length) : 0.0f;
     }
     if (cubic) {
         enf_catmull_rom(floats, points, KEYS, floats + KEYS);

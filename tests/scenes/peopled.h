@@ -5,8 +5,8 @@
 
 #include <enfilade/map.h>
 
-/** Writes `map` with `movers` more: boxes the size of a person, opaque and of glass, on paths (linear and cubic, some turning) from a
- *  point of a cell to others of this cell and of the cells beside it, through walls if need be, at about 2 m/s. */
+/** Writes `map` with `movers` more: boxes the size of a person, opaque and of glass, on paths (linear and cubic) about a cell or through
+ *  a portal into the next, at about 2 m/s, through walls and furniture if need be. */
 EnfResult enf_peopled_write(const EnfMap *map, uint32_t movers, uint64_t seed, const char *path, EnfError *error);
 
 #endif

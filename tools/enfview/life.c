@@ -35,7 +35,8 @@ static bool send_doors(Viewer *viewer, int64_t tick) {
     bool sent = false;
     for (uint32_t i = 0; i < map->movers_count; i++) {
         const EnfMover *mover = &map->movers[i];
-        int64_t phase = (tick + (int64_t)i * DOOR_SHIFT) % DOOR_CYCLE;
+        uint32_t group = mover->portal != ENF_NONE ? mover->portal : i; /* both leaves of a door at once */
+        int64_t phase = (tick + (int64_t)group * DOOR_SHIFT) % DOOR_CYCLE;
         if (is_door(mover) && (phase == 0 || phase == DOOR_CYCLE / 2)) {
             double open = mover->high >= -mover->low ? (double)mover->high : (double)mover->low;
             sent = enf_world_swing(viewer->world, enf_world_object(viewer->world, i), phase == 0 ? open : 0.0) || sent;
@@ -44,21 +45,28 @@ static bool send_doors(Viewer *viewer, int64_t tick) {
     return sent;
 }
 
-/* A door at rest fills its opening (the compiler chose the portal by that). */
+static bool is_leaf(const EnfMover *mover) {
+    return mover->portal != ENF_NONE && (mover->kind == ENF_MOVER_HINGE || mover->kind == ENF_MOVER_SLIDE);
+}
+
+static bool is_shut(Viewer *viewer, uint32_t mover) {
+    EnfObjectDef def = enf_mover_def(&viewer->map, mover);
+    EnfPose now = enf_world_pose(viewer->world, mover), rest = def.motion.as.swing.rest;
+    EnfVec3 way = enf_sub(now.position, rest.position);
+    double turn = now.rotation.x * rest.rotation.x + now.rotation.y * rest.rotation.y + now.rotation.z * rest.rotation.z +
+                  now.rotation.w * rest.rotation.w;
+    return enf_dot(way, way) < 1e-18 && fabs(turn) > 1.0 - 1e-12;
+}
+
+/* Leaves at rest fill their opening (the compiler chose the portal by that): it is closed while all of them are shut. */
 static void close_portals(Viewer *viewer) {
     const EnfMap *map = &viewer->map;
-    for (uint32_t i = 0; i < map->movers_count; i++) {
-        const EnfMover *mover = &map->movers[i];
-        if (mover->portal == ENF_NONE || (mover->kind != ENF_MOVER_HINGE && mover->kind != ENF_MOVER_SLIDE)) {
-            continue;
+    for (int opens = 0; opens < 2; opens++) {
+        for (uint32_t i = 0; i < map->movers_count; i++) {
+            if (is_leaf(&map->movers[i]) && is_shut(viewer, i) == (opens == 0)) {
+                enf_portals_set_open(&viewer->portals, map->movers[i].portal, opens != 0);
+            }
         }
-        EnfObjectDef def = enf_mover_def(map, i);
-        EnfPose now = enf_world_pose(viewer->world, i), rest = def.motion.as.swing.rest;
-        EnfVec3 way = enf_sub(now.position, rest.position);
-        double turn = now.rotation.x * rest.rotation.x + now.rotation.y * rest.rotation.y + now.rotation.z * rest.rotation.z +
-                      now.rotation.w * rest.rotation.w;
-        bool shut = enf_dot(way, way) < 1e-18 && fabs(turn) > 1.0 - 1e-12;
-        enf_portals_set_open(&viewer->portals, mover->portal, !shut);
     }
 }
 
