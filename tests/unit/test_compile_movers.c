@@ -3,11 +3,11 @@
 #include "compile/compile.h"
 #include "harness/gltf.h"
 
-#include <enfilade/world.h>
+#include <enfilade/collide.h>
 
 #include <math.h>
 
-enum { KEYS = 3 };
+enum { KEYS = 3, ROCKS = 60 };
 
 /* The bytes behind the accessors of `head`. */
 typedef struct Bytes {
@@ -65,7 +65,16 @@ static const char meshes[] =
     "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":3,\"material\":0}]},"
     "{\"primitives\":[{\"attributes\":{\"POSITION\":1},\"indices\":4,\"material\":0}]},"
     "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":1}]},"
-    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":2}]}],";
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":2}]},";
+
+/* Mesh 5: a crate many times. */
+static void put_rocks(EnfTestText *out) {
+    for (int i = 0; i < ROCKS; i++) {
+        enf_test_put(out, i ? "," : "{\"primitives\":[");
+        enf_test_put(out, "{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":0}");
+    }
+    enf_test_put(out, "]}],");
+}
 
 /* A level: two rooms and their portal, then `nodes` (objects with a comma before each), numbered from 4 on and all roots but those in
  * `children_from`; `animations` as JSON, or "". */
@@ -90,6 +99,7 @@ static const char *write_level(const char *nodes, const char *roots, const char 
     enf_test_put(&out, "],");
     enf_test_put(&out, accessors);
     enf_test_put(&out, meshes);
+    put_rocks(&out);
     enf_test_put(&out, animations);
     enf_test_put(&out, "\"nodes\":[{\"name\":\"west-room\",\"children\":[2,3]},"
                        "{\"name\":\"east-room\",\"mesh\":1,\"scale\":[4,4,4],\"translation\":[6,2,2]},"
@@ -341,6 +351,124 @@ static void what_only_collides(void **state) {
     release(&level);
 }
 
+/* A hull below a door, and faces of material `clip`, go with what they hang on. */
+static void hulls_that_move(void **state) {
+    (void)state;
+    Compiled level;
+    compile_level(&level,
+                  ",{\"name\":\"door\",\"mesh\":0,\"children\":[5,6,7],\"translation\":[4,1,2],\"extras\":{" HINGED "}}"
+                  ",{\"name\":\"hull-colonly\",\"mesh\":0,\"scale\":[2,2,2]}"
+                  ",{\"name\":\"guard\",\"mesh\":3,\"translation\":[0,5,0]}"
+                  ",{\"name\":\"net-navmesh\",\"mesh\":0}",
+                  ",4", "");
+    assert_int_equal(level.map.movers_count, 1);
+    const EnfMesh *mesh = &level.map.meshes[level.map.movers[0].mesh];
+    assert_int_equal(mesh->part_count, 2);
+    const EnfMeshPart *parts = level.map.mesh_parts + mesh->part_first;
+    assert_int_equal(parts[0].index_count, 36);
+    assert_int_equal(parts[1].index_count, 72);
+    assert_int_equal(level.map.materials[parts[1].material].flags, ENF_MATERIAL_NODRAW | ENF_MATERIAL_CLIP);
+    assert_true(mesh->min[0] == -1.0F && mesh->max[1] == 5.5F);
+    release(&level);
+}
+
+/* An obstacle of more triangles than a solid may have is several; each triangle is in one of them. */
+static void large_obstacles(void **state) {
+    (void)state;
+    Compiled level;
+    compile_level(&level, ",{\"name\":\"rocks-colonly\",\"mesh\":5,\"translation\":[2,2,2]}", ",4", "");
+    uint32_t triangles = 0;
+    for (uint32_t m = 0; m < level.map.movers_count; m++) {
+        const EnfMesh *mesh = &level.map.meshes[level.map.movers[m].mesh];
+        assert_int_equal(mesh->part_count, 1);
+        assert_in_range(level.map.mesh_parts[mesh->part_first].index_count / 3, 1, ENF_SOLID_TRIANGLES_MAX);
+        assert_int_equal(level.map.movers[m].kind, ENF_MOVER_STILL);
+        triangles += level.map.mesh_parts[mesh->part_first].index_count / 3;
+    }
+    assert_int_equal(level.map.movers_count, 2);
+    assert_int_equal(triangles, 12 * ROCKS);
+    release(&level);
+}
+
+#define SAME_TABLE(a, b, table)                                                                                                \
+    do {                                                                                                                       \
+        assert_int_equal((a).table##_count, (b).table##_count);                                                                \
+        assert_memory_equal((a).table, (b).table, (a).table##_count * sizeof *(a).table);                                      \
+    } while (0)
+
+/* What moves leaves no trace in what stands: all that is drawn, searched and looked through is, byte for byte, that of the level
+ * without. */
+static void what_stands_is_untouched(void **state) {
+    (void)state;
+    Compiled plain, level;
+    compile_level(&plain, ",{\"name\":\"stone\",\"mesh\":0,\"translation\":[1,0.5,1]}", ",4", "");
+    compile_level(&level,
+                  ",{\"name\":\"stone\",\"mesh\":0,\"translation\":[1,0.5,1]}" DOOR("door", HINGED, "2", "1")
+                      DOOR("glass", "\"dynamic\":1", "3", "1") ",{\"name\":\"wall-colonly\",\"mesh\":0,\"translation\":[4,2,2]}"
+                                                               ",{\"name\":\"far\",\"mesh\":0,\"translation\":[900,2,2]}",
+                  ",4,5,6,7,8",
+                  "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":8,\"path\":\"scale\"}}],"
+                  "\"samplers\":[{\"input\":5,\"output\":6}]}],");
+    assert_int_equal(level.map.movers_count, 4);
+    SAME_TABLE(plain.map, level.map, cells);
+    SAME_TABLE(plain.map, level.map, portals);
+    SAME_TABLE(plain.map, level.map, portal_vertices);
+    SAME_TABLE(plain.map, level.map, clusters);
+    SAME_TABLE(plain.map, level.map, kd_nodes);
+    SAME_TABLE(plain.map, level.map, kd_blocks);
+    SAME_TABLE(plain.map, level.map, light_refs);
+    SAME_TABLE(plain.map, level.map, cell_nodes);
+    assert_memory_equal(plain.map.vertices, level.map.vertices, plain.map.vertices_count * sizeof *plain.map.vertices);
+    assert_memory_equal(plain.map.indices, level.map.indices, plain.map.indices_count * sizeof *plain.map.indices);
+    release(&plain);
+    release(&level);
+}
+
+/* The largest speed follows from the motion where that has one; what stands on the floor is in its room. */
+static void speeds_and_cells(void **state) {
+    (void)state;
+    Compiled level;
+    compile_level(
+        &level,
+        ",{\"name\":\"door\",\"mesh\":2,\"translation\":[1,0,2.5],\"extras\":{" HINGED ",\"speed\":90}}"
+        ",{\"name\":\"slow\",\"mesh\":0,\"extras\":{\"wrap\":\"pingpong\"}}"
+        ",{\"name\":\"jumps\",\"mesh\":0}"
+        ",{\"name\":\"guard\",\"mesh\":2,\"translation\":[6,0,2],\"extras\":{\"classname\":\"npc_guard\",\"speed\":7}}",
+        ",4,5,6,7",
+        "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":5,\"path\":\"translation\"}},"
+        "{\"sampler\":0,\"target\":{\"node\":6,\"path\":\"translation\"}}],"
+        "\"samplers\":[{\"input\":5,\"output\":6}]}],");
+    const EnfMover *movers = level.map.movers;
+    assert_true(fabs((double)movers[0].max_speed - 0.5 * 0.5 * ENF_PI) < 1e-3); /* half a metre from its hinge */
+    assert_true(fabs((double)movers[1].max_speed - 1.0) < 1e-3);
+    assert_true(movers[2].max_speed == 0.0F); /* a loop that does not close */
+    assert_true(movers[3].max_speed == 7.0F);
+    assert_string_equal(enf_map_string(&level.map, level.map.cells[level.map.entities[movers[3].entity].cell].name),
+                        "east-room");
+    release(&level);
+}
+
+/* What is likely a slip is told under the node's name. */
+static void told_by_name(void **state) {
+    (void)state;
+    Compiled level;
+    compile_level(&level,
+                  ",{\"name\":\"twice\",\"mesh\":0,\"extras\":{\"classname\":\"prop_a\",\"classname\":\"prop_b\"}}"
+                  ",{\"name\":\"both\",\"mesh\":0,\"extras\":{\"classname\":\"func_door\",\"move\":\"0,1,0\"}}"
+                  ",{\"name\":\"typo\",\"mesh\":0,\"extras\":{\"classname\":\"func_dor\"}}"
+                  ",{\"name\":\"moon\",\"mesh\":0,\"translation\":[0,2e6,0],\"extras\":{\"dynamic\":true}}",
+                  ",4,5,6,7",
+                  "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":5,\"path\":\"translation\"}}],"
+                  "\"samplers\":[{\"input\":5,\"output\":6}]}],");
+    assert_int_equal(found(&level, ENF_DIAGNOSIS_MOVER_KEY, "twice"), 1);
+    assert_int_equal(found(&level, ENF_DIAGNOSIS_MOVER_KEY, "both"), 1);
+    assert_int_equal(level.map.movers[1].kind, ENF_MOVER_PATH);
+    assert_int_equal(found(&level, ENF_DIAGNOSIS_MOVER_KEY, "typo"), 1);
+    assert_int_equal(found(&level, ENF_DIAGNOSIS_MOVER_STATIC, "moon"), 1);
+    assert_int_equal(level.map.movers[3].mesh, ENF_NONE);
+    release(&level);
+}
+
 /* Rooms do not move; a level that would have nothing left to stand on stays as it is. */
 static void what_cannot_move(void **state) {
     (void)state;
@@ -354,9 +482,18 @@ static void what_cannot_move(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(an_animated_node),  cmocka_unit_test(what_hangs_on_what_moves),   cmocka_unit_test(shared_and_mirrored),
-    cmocka_unit_test(doors_and_portals), cmocka_unit_test(lifts_and_slips_of_the_pen), cmocka_unit_test(what_only_collides),
+    cmocka_unit_test(an_animated_node),
+    cmocka_unit_test(what_hangs_on_what_moves),
+    cmocka_unit_test(shared_and_mirrored),
+    cmocka_unit_test(doors_and_portals),
+    cmocka_unit_test(lifts_and_slips_of_the_pen),
+    cmocka_unit_test(what_only_collides),
     cmocka_unit_test(what_cannot_move),
+    cmocka_unit_test(hulls_that_move),
+    cmocka_unit_test(large_obstacles),
+    cmocka_unit_test(what_stands_is_untouched),
+    cmocka_unit_test(speeds_and_cells),
+    cmocka_unit_test(told_by_name),
 };
 
 ENF_TEST_MAIN(tests)

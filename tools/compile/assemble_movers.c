@@ -6,6 +6,66 @@
 /* Metres a second of what nothing is said about: a person who runs. */
 #define FREE_SPEED 5.0
 
+/* ---- who moves what --------------------------------------------------------------------------------------------- */
+
+static uint32_t *new_list(uint32_t count) {
+    uint32_t *list = malloc(((size_t)count + 1) * sizeof *list);
+    if (list) {
+        memset(list, 0xff, ((size_t)count + 1) * sizeof *list); /* ENF_NONE */
+    }
+    return list;
+}
+
+/* Lists are filled from their ends, so that they come out in the file's order. Nodes stand behind their parents. */
+static void fill_lists(EnfMovers *movers) {
+    const EnfSource *source = movers->parts->source;
+    const uint32_t *roots = movers->parts->layout->node_movers;
+    for (uint32_t i = source->path_count; i-- > 0;) {
+        uint32_t node = source->paths[i].node;
+        movers->next_path[i] = movers->first_path[node];
+        movers->first_path[node] = i;
+    }
+    for (uint32_t i = source->node_count; i-- > 0;) {
+        if (roots[i] != ENF_NONE) {
+            movers->next_piece[i] = movers->first_piece[roots[i]];
+            movers->first_piece[roots[i]] = i;
+        }
+    }
+    for (uint32_t i = 0; i < source->node_count; i++) {
+        uint32_t parent = source->nodes[i].parent;
+        bool drives = movers->first_path[i] != ENF_NONE && roots[i] == i;
+        movers->driver[i] = drives ? i : parent == ENF_NONE ? ENF_NONE : movers->driver[parent];
+    }
+}
+
+static bool make_lists(EnfMovers *movers) {
+    const EnfSource *source = movers->parts->source;
+    movers->meshes = new_list(source->mesh_count);
+    movers->first_path = new_list(source->node_count);
+    movers->next_path = new_list(source->path_count);
+    movers->first_piece = new_list(source->node_count);
+    movers->next_piece = new_list(source->node_count);
+    movers->driver = new_list(source->node_count);
+    bool ok = movers->meshes && movers->first_path && movers->next_path && movers->first_piece && movers->next_piece &&
+              movers->driver;
+    if (ok) {
+        fill_lists(movers);
+    }
+    return ok;
+}
+
+static void free_lists(EnfMovers *movers) {
+    free(movers->meshes);
+    free(movers->first_path);
+    free(movers->next_path);
+    free(movers->first_piece);
+    free(movers->next_piece);
+    free(movers->driver);
+    free(movers->nodes.data);
+}
+
+/* ---- one mover -------------------------------------------------------------------------------------------------- */
+
 /* The entity's floats, as the run time will read them. */
 static EnfAffine rest_of(const EnfEntity *e) {
     EnfQuat q = {(double)e->rotation[0], (double)e->rotation[1], (double)e->rotation[2], (double)e->rotation[3]};
@@ -15,25 +75,31 @@ static EnfAffine rest_of(const EnfEntity *e) {
                           enf_v3((double)e->scale[0], (double)e->scale[1], (double)e->scale[2]));
 }
 
-static void blank(EnfMover *mover, uint32_t entity) {
-    memset(mover, 0, sizeof *mover);
-    mover->entity = entity;
-    mover->mesh = mover->translation = mover->rotation = mover->scale = mover->portal = ENF_NONE;
-    mover->axis[1] = 1.0f;
-    mover->rate = 1.0f;
-    mover->seconds = 1.0f;
+static EnfMover blank(uint32_t entity) {
+    EnfMover mover;
+    memset(&mover, 0, sizeof mover);
+    mover.entity = entity;
+    mover.mesh = mover.translation = mover.rotation = mover.scale = mover.portal = ENF_NONE;
+    mover.axis[1] = 1.0f;
+    mover.rate = 1.0f;
+    mover.seconds = 1.0f;
+    return mover;
 }
 
 static void set_kind(EnfMoverWork *work) {
     const EnfMoverExtras *extras = &work->extras;
-    bool steered = strncmp(extras->classname, "npc_", 4) == 0 || (extras->classname[0] == '\0' && extras->dynamic);
+    bool guard = strncmp(extras->classname, "npc_", 4) == 0;
     if (work->mover.kind != ENF_MOVER_STILL) {
-        return; /* animated */
+        if (strncmp(extras->classname, "func_", 5) == 0) { /* guards are: games steer them, others watch them go */
+            enf_diagnose(work->parts->diagnosis, ENF_DIAGNOSIS_MOVER_KEY, work->parts->source->nodes[work->node].name,
+                         "it is animated and of class '%s': the animation moves it", extras->classname);
+        }
+        return;
     }
     enf_mover_swing(work);
-    if (work->mover.kind == ENF_MOVER_STILL && steered) {
+    if (work->mover.kind == ENF_MOVER_STILL && (guard || (extras->classname[0] == '\0' && extras->dynamic))) {
         work->mover.kind = ENF_MOVER_FREE;
-        work->mover.max_speed = (float)FREE_SPEED;
+        work->mover.max_speed = (float)fmax(FREE_SPEED, extras->speed);
     }
 }
 
@@ -45,85 +111,69 @@ static void set_flags(EnfMoverWork *work) {
     work->mover.validity_ticks = extras->validity > 0.0 ? enf_mover_ticks(extras->validity) : 0;
     if (extras->max_speed > 0.0) {
         work->mover.max_speed = (float)extras->max_speed;
+    } else if (work->mover.kind != ENF_MOVER_FREE) {
+        work->mover.max_speed = enf_mover_speed(work);
     }
 }
 
-static bool add_mover(EnfMoverWork *work, uint32_t *shared) {
+/* A loose thing that stands on the floor has its origin in no room: its middle is asked for. */
+static void find_cell(EnfMoverWork *work) {
+    EnfEntity *entity = &work->assembly->entities.data[work->mover.entity];
+    if (entity->cell == ENF_NONE && work->mover.mesh != ENF_NONE) {
+        const EnfMesh *mesh = &work->assembly->meshes.data[work->mover.mesh];
+        EnfVec3 middle = enf_v3(0.5 * ((double)mesh->min[0] + (double)mesh->max[0]),
+                                0.5 * ((double)mesh->min[1] + (double)mesh->max[1]),
+                                0.5 * ((double)mesh->min[2] + (double)mesh->max[2]));
+        EnfMap map = enf_assembly_map(work->assembly, 0);
+        entity->cell = enf_map_locate(&map, enf_affine_point(&work->rest, middle));
+    }
+}
+
+static bool add_mover(EnfMoverWork *work) {
     EnfAssembly *assembly = work->assembly;
     const EnfSourceNode *node = &work->parts->source->nodes[work->node];
-    uint32_t entity = assembly->node_entities[work->node];
-    if (entity == ENF_NONE || !ENF_ARRAY_ROOM(&assembly->movers, 1)) {
-        return entity == ENF_NONE;
-    }
-    blank(&work->mover, entity);
     work->extras = enf_mover_extras(node->extras, node->name, work->parts->diagnosis);
-    work->rest = rest_of(&assembly->entities.data[entity]);
-    if (!enf_mover_mesh(work, shared) || !enf_mover_path(work)) {
+    if (!ENF_ARRAY_ROOM(&assembly->movers, 1) || !ENF_ARRAY_ROOM(&work->movers->nodes, 1) || !enf_mover_mesh(work) ||
+        !enf_mover_path(work)) {
         return false;
     }
+    find_cell(work);
     set_kind(work);
     set_flags(work);
     assembly->movers.data[assembly->movers.count++] = work->mover;
+    work->movers->nodes.data[work->movers->nodes.count++] = work->node;
     return true;
 }
 
-/* The material of what collides and is not drawn, made when it is first asked for; ENF_NONE if memory is out. */
-static uint32_t clip_material(EnfAssembly *assembly, uint32_t *clip) {
-    if (*clip == ENF_NONE && ENF_ARRAY_ROOM(&assembly->materials, 1)) {
-        EnfMaterial material = {.name = enf_strings_add(&assembly->texts, "clip"),
-                                .texture = ENF_NONE,
-                                .emissive_texture = ENF_NONE,
-                                .flags = ENF_MATERIAL_NODRAW | ENF_MATERIAL_CLIP,
-                                .base_color = {1.0f, 1.0f, 1.0f, 1.0f},
-                                .uv_transform = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}};
-        *clip = assembly->materials.count;
-        assembly->materials.data[assembly->materials.count++] = material;
-    }
-    return *clip;
-}
+/* ---- all movers ------------------------------------------------------------------------------------------------- */
 
-/* An obstacle that nobody sees: a mover that stands still, so that cells and their surfaces know nothing of it. */
-static bool add_obstacle(EnfMoverWork *work, uint32_t *shared, uint32_t *clip) {
-    EnfAssembly *assembly = work->assembly;
-    uint32_t entity = assembly->node_entities[work->node];
-    work->clip = clip_material(assembly, clip);
-    if (entity == ENF_NONE || work->clip == ENF_NONE || !ENF_ARRAY_ROOM(&assembly->movers, 1)) {
-        return entity == ENF_NONE;
+static bool add_node(EnfMovers *movers, uint32_t node) {
+    const EnfAssemblyParts *parts = movers->parts;
+    uint32_t root = parts->layout->node_movers[node], entity = movers->assembly->node_entities[node];
+    bool obstacle = root == ENF_NONE && enf_mover_collides(parts->source, parts->layout, node);
+    if (entity == ENF_NONE || (root != node && !obstacle)) {
+        return true;
     }
-    blank(&work->mover, entity);
-    work->rest = rest_of(&assembly->entities.data[entity]);
-    work->mover.flags = ENF_MOVER_SOLID;
-    if (!enf_mover_mesh(work, shared)) {
-        return false;
+    EnfMoverWork work = {.movers = movers, .assembly = movers->assembly, .parts = parts, .node = node};
+    work.mover = blank(entity);
+    work.rest = rest_of(&movers->assembly->entities.data[entity]);
+    if (obstacle) {
+        work.mover.flags = ENF_MOVER_SOLID;
+        return enf_mover_obstacle(&work);
     }
-    assembly->movers.data[assembly->movers.count++] = work->mover;
-    return true;
+    return add_mover(&work);
 }
 
 bool enf_assemble_movers(EnfAssembly *assembly, const EnfAssemblyParts *parts) {
-    const EnfSource *source = parts->source;
-    const uint32_t *movers = parts->layout->node_movers;
-    if (!movers) {
+    EnfMovers movers = {.assembly = assembly, .parts = parts, .clip = ENF_NONE};
+    if (!parts->layout->node_movers) {
         return true;
     }
-    uint32_t *shared = malloc(((size_t)source->mesh_count + 1) * sizeof *shared);
-    uint32_t *nodes = malloc(((size_t)source->node_count + 2) * sizeof *nodes);
-    bool ok = shared && nodes;
-    if (ok) {
-        memset(shared, 0xff, ((size_t)source->mesh_count + 1) * sizeof *shared);
+    bool ok = make_lists(&movers);
+    for (uint32_t i = 0; i < parts->source->node_count && ok; i++) {
+        ok = add_node(&movers, i);
     }
-    uint32_t clip = ENF_NONE;
-    for (uint32_t i = 0; i < source->node_count && ok; i++) {
-        EnfMoverWork work = {.assembly = assembly, .parts = parts, .node = i, .clip = ENF_NONE};
-        nodes[assembly->movers.count] = i;
-        if (movers[i] == i) {
-            ok = add_mover(&work, shared);
-        } else if (enf_mover_collides(source, parts->layout, i)) {
-            ok = add_obstacle(&work, shared, &clip);
-        }
-    }
-    ok = ok && enf_movers_close_portals(assembly, parts, nodes);
-    free(shared);
-    free(nodes);
+    ok = ok && enf_movers_close_portals(&movers);
+    free_lists(&movers);
     return ok;
 }

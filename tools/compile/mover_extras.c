@@ -11,6 +11,8 @@
 enum { EXTRAS_SEARCHED_MAX = 1 << 16 };
 /* Numbers beyond this are slips of the keyboard, whatever their unit. */
 #define NUMBER_MAX 1e6
+/* Speeds below this (metres or degrees a second) are slips, too: a map holds floats, and 0 means that nothing is said. */
+#define POSITIVE_MIN 1e-6
 
 typedef struct Reader {
     const cJSON *object;
@@ -20,7 +22,7 @@ typedef struct Reader {
 
 static void complain(const Reader *reader, const char *key, const char *what) {
     if (reader->diagnosis) {
-        enf_diagnose(reader->diagnosis, ENF_DIAGNOSIS_MOVER_KEY, reader->node, "'%s' %s; it is not used", key, what);
+        enf_diagnose(reader->diagnosis, ENF_DIAGNOSIS_MOVER_KEY, reader->node, "'%s' %s", key, what);
     }
 }
 
@@ -61,7 +63,7 @@ static double read_number(const Reader *reader, const char *key, double standard
         return standard;
     }
     if (numbers_of(item, &value, 1) != 1) {
-        complain(reader, key, "is no number of a sensible size");
+        complain(reader, key, "is no number of a sensible size; it is not used");
         return standard;
     }
     return value;
@@ -70,7 +72,11 @@ static double read_number(const Reader *reader, const char *key, double standard
 static double read_positive(const Reader *reader, const char *key) {
     double value = read_number(reader, key, 0.0);
     if (value < 0.0) {
-        complain(reader, key, "is negative");
+        complain(reader, key, "is negative; it is not used");
+        return 0.0;
+    }
+    if (value > 0.0 && value < POSITIVE_MIN) {
+        complain(reader, key, "is next to nothing; it is not used");
         return 0.0;
     }
     return value;
@@ -83,7 +89,7 @@ static bool read_vector(const Reader *reader, const char *key, EnfVec3 *out) {
         return false;
     }
     if (numbers_of(item, v, 3) != 3 || v[0] * v[0] + v[1] * v[1] + v[2] * v[2] < 1e-12) {
-        complain(reader, key, "is no vector \"x,y,z\" with a length");
+        complain(reader, key, "is no vector \"x,y,z\" with a length; it is not used");
         return false;
     }
     *out = enf_v3(v[0], v[1], v[2]);
@@ -111,7 +117,19 @@ static void read_name(const Reader *reader, const char *key, char out[ENF_MOVER_
     if (cJSON_IsString(item) && strlen(item->valuestring) < ENF_MOVER_NAME) {
         strcpy(out, item->valuestring);
     } else if (item) {
-        complain(reader, key, "is no text of at most 127 bytes");
+        complain(reader, key, "is no text of at most 127 bytes; it is not used");
+    }
+}
+
+/* A class that is given twice is one that somebody forgot. */
+static void read_class(const Reader *reader, char out[ENF_MOVER_NAME]) {
+    uint32_t given = 0;
+    read_name(reader, "classname", out);
+    for (const cJSON *item = reader->object->child; item; item = item->next) {
+        given += item->string && strcmp(item->string, "classname") == 0;
+    }
+    if (given > 1) {
+        complain(reader, "classname", "is given more than once: the first holds");
     }
 }
 
@@ -125,7 +143,7 @@ static EnfWrap read_wrap(const Reader *reader) {
         }
     }
     if (text[0]) {
-        complain(reader, "wrap", "is none of once, loop, pingpong");
+        complain(reader, "wrap", "is none of once, loop, pingpong; it is not used");
     }
     return ENF_WRAP_LOOP;
 }
@@ -135,7 +153,7 @@ static void read_stops(const Reader *reader, EnfMoverExtras *extras) {
     if (item) {
         extras->stop_count = numbers_of(item, extras->stops, ENF_MOVER_STOPS);
         if (extras->stop_count < 2) {
-            complain(reader, "stops", "are not 2 to 32 heights \"0,4.5,9\"");
+            complain(reader, "stops", "are not 2 to 32 heights \"0,4.5,9\"; they are not used");
             extras->stop_count = 0;
         }
     }
@@ -153,7 +171,7 @@ EnfMoverExtras enf_mover_extras(const char *json, const char *node, EnfDiagnosis
         return extras;
     }
     Reader reader = {object, node, diagnosis};
-    read_name(&reader, "classname", extras.classname);
+    read_class(&reader, extras.classname);
     read_name(&reader, "portal", extras.portal);
     extras.wrap = read_wrap(&reader);
     extras.phase = read_number(&reader, "phase", 0.0);

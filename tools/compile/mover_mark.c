@@ -2,7 +2,7 @@
 #include "compile/movers.h"
 
 static bool may_move(EnfRole role) {
-    return role == ENF_ROLE_GEOMETRY || role == ENF_ROLE_MARKER;
+    return role == ENF_ROLE_GEOMETRY || role == ENF_ROLE_MARKER || role == ENF_ROLE_COLLISION;
 }
 
 static bool says_so(const EnfSourceNode *node) {

@@ -9,19 +9,6 @@
 /* Metres: two rigid placements that agree this well at 100 m from the origin place a mesh alike. */
 #define SAME_PLACE 1e-4
 
-/* A corner before corners are shared. */
-typedef struct Corner {
-    EnfVertex vertex;
-    uint32_t material, order;
-} Corner;
-
-typedef struct Mesher {
-    const EnfSource *source;
-    uint32_t clip; /* all takes this material, and of drawn nodes only the faces that collide are taken; or ENF_NONE */
-    bool drawn;
-    ENF_ARRAY(Corner) corners; /* three a triangle */
-} Mesher;
-
 static uint32_t pack_normal(EnfVec3 n) {
     const double v[3] = {n.x, n.y, n.z};
     uint32_t packed = 0;
@@ -71,12 +58,9 @@ static bool is_clip(const EnfSource *source, uint32_t material) {
     return enf_material_is_open(source, material) && !enf_material_is_portal(source, material);
 }
 
-/* Portals are no surfaces; what only collides is no part of what is drawn, nor the other way around. */
-static bool is_left_out(const Mesher *mesher, uint32_t material) {
-    if (mesher->clip == ENF_NONE) {
-        return enf_material_is_open(mesher->source, material);
-    }
-    return enf_material_is_portal(mesher->source, material) || (mesher->drawn && !is_clip(mesher->source, material));
+static bool is_colonly(const EnfSourceNode *node) {
+    EnfSuffix suffix = enf_node_name(node->name).suffix;
+    return suffix == ENF_SUFFIX_COLONLY || suffix == ENF_SUFFIX_CONVCOLONLY;
 }
 
 bool enf_mover_collides(const EnfSource *source, const EnfLayout *layout, uint32_t node) {
@@ -85,8 +69,7 @@ bool enf_mover_collides(const EnfSource *source, const EnfLayout *layout, uint32
         return false;
     }
     if (layout->roles[node] == ENF_ROLE_COLLISION) {
-        EnfSuffix suffix = enf_node_name(n->name).suffix;
-        return suffix == ENF_SUFFIX_COLONLY || suffix == ENF_SUFFIX_CONVCOLONLY;
+        return is_colonly(n);
     }
     bool found = false;
     for (uint32_t i = 0; i < source->meshes[n->mesh].primitive_count; i++) {
@@ -95,30 +78,56 @@ bool enf_mover_collides(const EnfSource *source, const EnfLayout *layout, uint32
     return found && (layout->roles[node] == ENF_ROLE_GEOMETRY || layout->roles[node] == ENF_ROLE_ROOM);
 }
 
-/* The triangles of a node. `to_mesh` leads from the node's mesh to the mover's; `flip`: the node turns its windings around. */
-static bool add_node(Mesher *mesher, uint32_t node, const EnfAffine *to_mesh, bool flip) {
-    const EnfSourceMesh *mesh = &mesher->source->meshes[mesher->source->nodes[node].mesh];
-    for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-        const EnfSourcePrimitive *primitive = &mesher->source->primitives[mesh->primitive_first + i];
-        if (is_left_out(mesher, primitive->material)) {
-            continue;
-        }
-        uint32_t material = mesher->clip == ENF_NONE ? primitive->material : mesher->clip;
-        if (!ENF_ARRAY_ROOM(&mesher->corners, primitive->index_count)) {
-            return false;
-        }
-        for (uint32_t k = 0; k < primitive->index_count; k++) {
-            uint32_t corner = flip && k % 3 ? k - k % 3 + 3 - k % 3 : k;
-            uint32_t order = mesher->corners.count;
-            mesher->corners.data[mesher->corners.count++] = (Corner){
-                make_vertex(primitive, primitive->indices[corner], to_mesh), material, order};
-        }
+/* The material of what collides and is not drawn, made when it is first asked for; ENF_NONE if memory is out. */
+static uint32_t clip_material(EnfMovers *movers) {
+    EnfAssembly *assembly = movers->assembly;
+    if (movers->clip == ENF_NONE && ENF_ARRAY_ROOM(&assembly->materials, 1)) {
+        EnfMaterial material = {.name = enf_strings_add(&assembly->texts, "clip"),
+                                .texture = ENF_NONE,
+                                .emissive_texture = ENF_NONE,
+                                .flags = ENF_MATERIAL_NODRAW | ENF_MATERIAL_CLIP,
+                                .base_color = {1.0f, 1.0f, 1.0f, 1.0f},
+                                .uv_transform = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}};
+        movers->clip = assembly->materials.count;
+        assembly->materials.data[assembly->materials.count++] = material;
+    }
+    return movers->clip;
+}
+
+static bool add_primitive(EnfMesher *mesher, const EnfSourcePrimitive *primitive, uint32_t material, const EnfAffine *to_mesh,
+                          bool flip) {
+    if (!ENF_ARRAY_ROOM(&mesher->corners, primitive->index_count)) {
+        return false;
+    }
+    for (uint32_t k = 0; k < primitive->index_count; k++) {
+        uint32_t corner = flip && k % 3 ? k - k % 3 + 3 - k % 3 : k;
+        uint32_t order = mesher->corners.count;
+        mesher->corners.data[mesher->corners.count++] = (EnfMoverCorner){
+            make_vertex(primitive, primitive->indices[corner], to_mesh), material, order};
     }
     return true;
 }
 
+bool enf_mesher_add_node(EnfMesher *mesher, uint32_t node, const EnfAffine *to_mesh, bool flip) {
+    const EnfSource *source = mesher->movers->parts->source;
+    const EnfSourceMesh *mesh = &source->meshes[source->nodes[node].mesh];
+    bool only = mesher->movers->parts->layout->roles[node] == ENF_ROLE_COLLISION;
+    bool ok = true;
+    for (uint32_t i = 0; i < mesh->primitive_count && ok; i++) {
+        const EnfSourcePrimitive *primitive = &source->primitives[mesh->primitive_first + i];
+        bool clips = only || is_clip(source, primitive->material);
+        if (enf_material_is_portal(source, primitive->material) || (only && !is_colonly(&source->nodes[node])) ||
+            (mesher->obstacle && !clips)) {
+            continue; /* portals are no surfaces, navigation meshes no obstacles; what is drawn stands elsewhere */
+        }
+        uint32_t material = clips ? clip_material(mesher->movers) : primitive->material;
+        ok = material != ENF_NONE && add_primitive(mesher, primitive, material, to_mesh, flip);
+    }
+    return ok;
+}
+
 static int by_material(const void *a, const void *b) {
-    const Corner *p = a, *q = b;
+    const EnfMoverCorner *p = a, *q = b;
     if (p->material != q->material) {
         return p->material < q->material ? -1 : 1;
     }
@@ -126,7 +135,7 @@ static int by_material(const void *a, const void *b) {
 }
 
 /* Corners [first, end) of one material become a part: vertices shared, triangles in the order that suits a vertex cache. */
-static bool add_part(EnfAssembly *assembly, const Corner *corners, uint32_t count, uint32_t mesh) {
+static bool add_part(EnfAssembly *assembly, const EnfMoverCorner *corners, uint32_t count, uint32_t mesh) {
     unsigned int *index = malloc(2 * (size_t)count * sizeof *index);
     EnfVertex *all = malloc(2 * (size_t)count * sizeof *all);
     bool ok = index && all && ENF_ARRAY_ROOM(&assembly->vertices, count) && ENF_ARRAY_ROOM(&assembly->indices, count) &&
@@ -156,7 +165,7 @@ static bool add_part(EnfAssembly *assembly, const Corner *corners, uint32_t coun
     return ok;
 }
 
-static void add_bounds(EnfMesh *mesh, const Corner *corners, uint32_t count) {
+static void add_bounds(EnfMesh *mesh, const EnfMoverCorner *corners, uint32_t count) {
     for (int axis = 0; axis < 3; axis++) {
         mesh->min[axis] = FLT_MAX;
         mesh->max[axis] = -FLT_MAX;
@@ -168,18 +177,36 @@ static void add_bounds(EnfMesh *mesh, const Corner *corners, uint32_t count) {
     }
 }
 
-static bool add_mesh(EnfMoverWork *work, Mesher *mesher) {
-    EnfAssembly *assembly = work->assembly;
-    if (!ENF_ARRAY_ROOM(&assembly->meshes, 1)) {
-        return false;
+/* Are mesh and place of a size that anything could be made of? Else it is told. */
+static bool is_near(const EnfMoverWork *work, const EnfMesh *mesh) {
+    bool near = true;
+    for (int i = 0; i < 8; i++) {
+        EnfVec3 corner = enf_v3((double)(i & 1 ? mesh->max[0] : mesh->min[0]), (double)(i & 2 ? mesh->max[1] : mesh->min[1]),
+                                (double)(i & 4 ? mesh->max[2] : mesh->min[2]));
+        EnfVec3 at = enf_affine_point(&work->rest, corner);
+        near = near && enf_length(corner) <= ENF_MOVER_FAR && enf_length(at) <= ENF_MOVER_FAR;
     }
-    EnfMesh mesh = {.part_first = assembly->mesh_parts.count,
-                    .name = enf_strings_add(&assembly->texts, mesher->source->nodes[work->node].name)};
-    uint32_t number = assembly->meshes.count, count = mesher->corners.count;
-    add_bounds(&mesh, mesher->corners.data, count);
-    qsort(mesher->corners.data, count, sizeof *mesher->corners.data, by_material);
+    if (!near) {
+        enf_diagnose(work->parts->diagnosis, ENF_DIAGNOSIS_MOVER_STATIC, work->parts->source->nodes[work->node].name,
+                     "it reaches farther than %g m: it is not drawn", ENF_MOVER_FAR);
+    }
+    return near;
+}
+
+bool enf_mesher_add_mesh(EnfMoverWork *work, EnfMoverCorner *corners, uint32_t count) {
+    EnfAssembly *assembly = work->assembly;
+    if (count == 0 || !ENF_ARRAY_ROOM(&assembly->meshes, 1)) {
+        return count == 0;
+    }
+    EnfMesh mesh = {.part_first = assembly->mesh_parts.count};
+    uint32_t number = assembly->meshes.count;
+    add_bounds(&mesh, corners, count);
+    if (!is_near(work, &mesh)) {
+        return true;
+    }
+    mesh.name = enf_strings_add(&assembly->texts, work->parts->source->nodes[work->node].name);
+    qsort(corners, count, sizeof *corners, by_material);
     for (uint32_t first = 0, end; first < count; first = end) {
-        const Corner *corners = mesher->corners.data;
         for (end = first + 1; end < count && corners[end].material == corners[first].material; end++) {
         }
         if (!add_part(assembly, corners + first, end - first, number)) {
@@ -202,12 +229,7 @@ static bool same_place(const EnfAffine *a, const EnfAffine *b) {
     return worst <= SAME_PLACE;
 }
 
-/* Nodes stand in the order of a depth-first walk: those below `root` follow it, and their parents do not come before it. */
-static bool is_below(const EnfSource *source, uint32_t node, uint32_t root) {
-    return source->nodes[node].parent != ENF_NONE && source->nodes[node].parent >= root;
-}
-
-static bool add_nodes(EnfMoverWork *work, Mesher *mesher) {
+static bool add_pieces(EnfMoverWork *work, EnfMesher *mesher) {
     const EnfSource *source = work->parts->source;
     EnfAffine inverse;
     if (!enf_affine_inverse(&work->rest, &inverse)) {
@@ -215,58 +237,43 @@ static bool add_nodes(EnfMoverWork *work, Mesher *mesher) {
                      "it has no size: it is not drawn");
         return true;
     }
-    for (uint32_t i = work->node; i < source->node_count && (i == work->node || is_below(source, i, work->node)); i++) {
-        if (work->parts->layout->node_movers[i] != work->node || source->nodes[i].mesh == ENF_NONE ||
-            work->parts->layout->roles[i] != ENF_ROLE_MOVER) {
-            continue;
-        }
-        EnfAffine to_mesh = enf_affine_mul(inverse, source->nodes[i].world);
-        if (!add_node(mesher, i, &to_mesh, enf_affine_det(&source->nodes[i].world) < 0.0)) {
-            return false;
+    bool ok = true;
+    for (uint32_t i = work->movers->first_piece[work->node]; i != ENF_NONE && ok; i = work->movers->next_piece[i]) {
+        if (source->nodes[i].mesh != ENF_NONE) {
+            EnfAffine to_mesh = enf_affine_mul(inverse, source->nodes[i].world);
+            ok = enf_mesher_add_node(mesher, i, &to_mesh, enf_affine_det(&source->nodes[i].world) < 0.0);
         }
     }
-    return true;
+    return ok;
 }
 
 /* The source mesh that is the whole mover, as it is; else ENF_NONE. */
 static uint32_t sole_mesh(const EnfMoverWork *work) {
     const EnfSource *source = work->parts->source;
     const EnfSourceNode *root = &source->nodes[work->node];
-    for (uint32_t i = work->node + 1; i < source->node_count && is_below(source, i, work->node); i++) {
-        if (work->parts->layout->node_movers[i] == work->node && source->nodes[i].mesh != ENF_NONE) {
+    uint32_t first = work->movers->first_piece[work->node];
+    for (uint32_t i = work->movers->next_piece[first]; i != ENF_NONE; i = work->movers->next_piece[i]) {
+        if (source->nodes[i].mesh != ENF_NONE) {
             return ENF_NONE;
         }
     }
-    bool as_it_is = root->mesh != ENF_NONE && enf_affine_det(&work->rest) > 0.0 && same_place(&work->rest, &root->world);
+    bool as_it_is = work->parts->layout->roles[work->node] == ENF_ROLE_MOVER && enf_affine_det(&work->rest) > 0.0 &&
+                    same_place(&work->rest, &root->world);
     return as_it_is ? root->mesh : ENF_NONE;
 }
 
-/* A node that only collides brings its own mesh, whatever moves beside it. */
-static bool add_clip(EnfMoverWork *work, Mesher *mesher) {
-    const EnfSourceNode *node = &work->parts->source->nodes[work->node];
-    EnfAffine inverse;
-    if (!enf_affine_inverse(&work->rest, &inverse)) {
+bool enf_mover_mesh(EnfMoverWork *work) {
+    static const EnfAffine as_it_is = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
+    uint32_t sole = sole_mesh(work), *shared = sole == ENF_NONE ? NULL : &work->movers->meshes[sole];
+    if (shared && *shared != ENF_NONE) {
+        work->mover.mesh = is_near(work, &work->assembly->meshes.data[*shared]) ? *shared : ENF_NONE;
         return true;
     }
-    EnfAffine to_mesh = enf_affine_mul(inverse, node->world);
-    return add_node(mesher, work->node, &to_mesh, enf_affine_det(&node->world) < 0.0);
-}
-
-bool enf_mover_mesh(EnfMoverWork *work, uint32_t *shared) {
-    bool clips = work->clip != ENF_NONE;
-    uint32_t sole = clips ? ENF_NONE : sole_mesh(work);
-    if (sole != ENF_NONE && shared[sole] != ENF_NONE) {
-        work->mover.mesh = shared[sole];
-        return true;
-    }
-    Mesher mesher = {
-        work->parts->source, work->clip, work->parts->layout->roles[work->node] != ENF_ROLE_COLLISION, {NULL, 0, 0}};
-    bool ok = clips              ? add_clip(work, &mesher)
-              : sole != ENF_NONE ? add_node(&mesher, work->node, &(EnfAffine){{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}}, false)
-                                 : add_nodes(work, &mesher);
-    ok = ok && (mesher.corners.count == 0 || add_mesh(work, &mesher));
-    if (ok && sole != ENF_NONE) {
-        shared[sole] = work->mover.mesh;
+    EnfMesher mesher = {work->movers, false, {NULL, 0, 0}};
+    bool ok = shared ? enf_mesher_add_node(&mesher, work->node, &as_it_is, false) : add_pieces(work, &mesher);
+    ok = ok && enf_mesher_add_mesh(work, mesher.corners.data, mesher.corners.count);
+    if (ok && shared) {
+        *shared = work->mover.mesh;
     }
     free(mesher.corners.data);
     return ok;

@@ -1,44 +1,34 @@
 /* The path of an animated node, in the world. What hangs below something that stands is moved there key by key, exactly; what hangs
- * below something that moves itself is sampled at every tick, which is all that the run time ever asks for (a state is asked at
- * ticks alone, so between samples nothing is lost). */
+ * below something that moves itself is mover_chain.c's. */
 #include "compile/movers.h"
+
+#include <enfilade/world.h>
 
 #include <math.h>
 
-/* Ticks a second of the run time (ENF_TICK_RATE, world.h: a room that the compiler does not see). */
-#define TICK_RATE 60.0
-/* A composed pass is at most ten minutes; longer ones begin again there, with a warning. */
-enum { SAMPLES_MAX = 36000 };
+/* Seconds: longer passes are slips of the keyboard (enf_map_check allows a year). */
+#define PASS_MAX 1e7
 
 static const EnfPathTarget targets[3] = {ENF_PATH_TRANSLATION, ENF_PATH_ROTATION, ENF_PATH_SCALE};
 
 uint32_t enf_mover_ticks(double seconds) {
-    double ticks = rint(seconds * TICK_RATE);
+    double ticks = rint(seconds * ENF_TICK_RATE);
     return ticks < 1.0 ? 1U : ticks > 1e9 ? 1000000000U : (uint32_t)ticks;
 }
 
-/* The curves of one node: of each target the first animation that drives it. */
-typedef struct Drive {
-    const EnfSourcePath *paths[3]; /* by target; NULL: as at rest */
-    double first, seconds;         /* of all curves: when they begin, how long they take */
-    EnfWrap wrap;
-    double phase;
-} Drive;
-
-static Drive drive_of(const EnfMoverWork *work, uint32_t node, const EnfMoverExtras *extras) {
-    const EnfSource *source = work->parts->source;
-    Drive drive = {{NULL, NULL, NULL}, 0.0, 0.0, extras->wrap, extras->phase};
+EnfMoverDrive enf_mover_drive(const EnfMovers *movers, uint32_t node, const EnfMoverExtras *extras) {
+    EnfMoverDrive drive = {{NULL, NULL, NULL}, 0.0, 0.0, extras->wrap, extras->phase};
     double first = HUGE_VAL, last = 0.0;
-    for (uint32_t i = 0; i < source->path_count; i++) {
-        const EnfSourcePath *path = &source->paths[i];
-        if (path->node == node && !drive.paths[path->target]) {
+    for (uint32_t i = movers->first_path[node]; i != ENF_NONE; i = movers->next_path[i]) {
+        const EnfSourcePath *path = &movers->parts->source->paths[i];
+        if (!drive.paths[path->target]) {
             drive.paths[path->target] = path;
             first = fmin(first, (double)path->times[0]);
             last = fmax(last, (double)path->times[path->key_count - 1]);
         }
     }
     drive.first = first < HUGE_VAL ? first : 0.0;
-    drive.seconds = last > drive.first ? last - drive.first : 1.0 / TICK_RATE;
+    drive.seconds = last > drive.first ? last - drive.first : 1.0 / ENF_TICK_RATE;
     return drive;
 }
 
@@ -88,7 +78,7 @@ static void move_value(const Placement *place, EnfPathTarget target, bool tangen
 }
 
 /* Room for a path of the mover's entity; its floats are at the returned place, NULL if memory is out. */
-static float *new_path(EnfMoverWork *work, const char *name, EnfPath path, uint32_t *number) {
+float *enf_mover_new_path(EnfMoverWork *work, const char *name, EnfPath path, uint32_t *number) {
     EnfAssembly *assembly = work->assembly;
     uint64_t width = (path.target == ENF_PATH_ROTATION ? 4 : 3) * (path.kind == ENF_PATH_CUBIC ? 3u : 1u);
     uint64_t floats = (1 + width) * path.key_count;
@@ -104,21 +94,26 @@ static float *new_path(EnfMoverWork *work, const char *name, EnfPath path, uint3
     return assembly->path_floats.data + path.float_first;
 }
 
-/* The curve with its first moment at 0, in the world. Times that floats cannot tell apart once shifted are pushed apart. */
-static bool move_curve(EnfMoverWork *work, const Placement *place, const Drive *drive, EnfPathTarget target, uint32_t *number) {
+void enf_mover_shift_times(const float *times, uint32_t count, double first, float *out) {
+    for (uint32_t key = 0; key < count; key++) {
+        out[key] = (float)((double)times[key] - first);
+        if (key > 0 && !(out[key] > out[key - 1])) {
+            out[key] = enf_round_up(nextafter((double)out[key - 1], HUGE_VAL));
+        }
+    }
+}
+
+/* The curve with its first moment at 0, in the world. */
+static bool move_curve(EnfMoverWork *work, const Placement *place, const EnfMoverDrive *drive, EnfPathTarget target,
+                       uint32_t *number) {
     const EnfSourcePath *from = drive->paths[target];
     uint32_t components = target == ENF_PATH_ROTATION ? 4 : 3, rows = from->kind == ENF_PATH_CUBIC ? 3 : 1;
-    float *to = new_path(work, from->animation, (EnfPath){.target = target, .kind = from->kind, .key_count = from->key_count},
-                         number);
+    float *to = enf_mover_new_path(work, from->animation,
+                                   (EnfPath){.target = target, .kind = from->kind, .key_count = from->key_count}, number);
     if (!to) {
         return false;
     }
-    for (uint32_t key = 0; key < from->key_count; key++) {
-        to[key] = (float)((double)from->times[key] - drive->first);
-        if (key > 0 && !(to[key] > to[key - 1])) {
-            to[key] = enf_round_up(nextafter((double)to[key - 1], HUGE_VAL));
-        }
-    }
+    enf_mover_shift_times(from->times, from->key_count, drive->first, to);
     to += from->key_count;
     for (uint32_t row = 0; row < from->key_count * rows; row++) {
         bool tangent = rows == 3 && row % 3 != 1;
@@ -127,216 +122,46 @@ static bool move_curve(EnfMoverWork *work, const Placement *place, const Drive *
     return true;
 }
 
-/* ---- values ----------------------------------------------------------------------------------------------------- */
-
-static void unit4(double *q) {
-    double size = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (int i = 0; i < 4 && size > 0.0; i++) {
-        q[i] /= size;
-    }
-}
-
-/* glTF 2.0 appendix C; a rotation is blended along the chord of the shorter way, as accurate as a tick's step needs. */
-static void value_at(const EnfSourcePath *path, double seconds, double *out) {
-    uint32_t n = path->target == ENF_PATH_ROTATION ? 4 : 3, low = 0, high = path->key_count;
-    uint32_t stride = path->kind == ENF_PATH_CUBIC ? 3 * n : n, middle_row = path->kind == ENF_PATH_CUBIC ? n : 0;
-    while (high - low > 1) {
-        uint32_t middle = low + (high - low) / 2;
-        low = (double)path->times[middle] <= seconds ? middle : low;
-        high = (double)path->times[middle] <= seconds ? high : middle;
-    }
-    const float *a = path->values + (size_t)low * stride + middle_row;
-    bool last = low + 1 >= path->key_count;
-    double span = last ? 1.0 : (double)path->times[low + 1] - (double)path->times[low];
-    double s = last ? 0.0 : fmin(fmax((seconds - (double)path->times[low]) / span, 0.0), 1.0);
-    const float *b = last ? a : a + stride;
-    double dot = 0.0;
-    for (uint32_t i = 0; i < n; i++) {
-        dot += (double)a[i] * (double)b[i];
-    }
-    double sign = n == 4 && path->kind == ENF_PATH_LINEAR && dot < 0.0 ? -1.0 : 1.0;
-    for (uint32_t i = 0; i < n; i++) {
-        double p = (double)a[i], q = sign * (double)b[i];
-        if (path->kind == ENF_PATH_STEP || last) {
-            out[i] = p;
-        } else if (path->kind == ENF_PATH_LINEAR) {
-            out[i] = p + s * (q - p);
-        } else {
-            double m0 = span * (double)a[n + i], m1 = span * (double)b[(int)i - (int)n];
-            out[i] = ((2 * (p - q) + m0 + m1) * s + (3 * (q - p) - 2 * m0 - m1)) * s * s + m0 * s + p;
+/* Do all its keys lie where something could be? */
+static bool is_near(const EnfMoverWork *work, const Placement *place, const EnfMoverDrive *drive) {
+    bool near = drive->seconds <= PASS_MAX;
+    for (int t = 0; t < 3 && near; t++) {
+        const EnfSourcePath *path = targets[t] == ENF_PATH_ROTATION ? NULL : drive->paths[targets[t]];
+        size_t count = path ? 3 * (size_t)path->key_count * (path->kind == ENF_PATH_CUBIC ? 3 : 1) : 0;
+        for (size_t i = 0; i < count && near; i++) {
+            near = fabs((double)path->values[i]) * fmax(fabs(place->scale), 1.0) <= ENF_MOVER_FAR;
         }
     }
-    if (n == 4) {
-        unit4(out);
+    if (!near) {
+        enf_diagnose(work->parts->diagnosis, ENF_DIAGNOSIS_MOVER_STATIC, work->parts->source->nodes[work->node].name,
+                     "its animation takes more than %g s or goes farther than %g m: it stands still", PASS_MAX, ENF_MOVER_FAR);
     }
+    return near;
 }
-
-/* Seconds into the curves at a tick. */
-static double time_at(const Drive *drive, int64_t tick) {
-    int64_t period = (int64_t)enf_mover_ticks(drive->seconds);
-    int64_t at = tick + llrint(drive->phase * TICK_RATE);
-    if (drive->wrap == ENF_WRAP_ONCE) {
-        at = at < 0 ? 0 : at > period ? period : at;
-    } else if (drive->wrap == ENF_WRAP_LOOP) {
-        at = (at % period + period) % period;
-    } else {
-        at = (at % (2 * period) + 2 * period) % (2 * period);
-        at = at > period ? 2 * period - at : at;
-    }
-    return drive->first + (double)at / (double)period * drive->seconds;
-}
-
-/* The node's transform relative to its parent at a tick. */
-static EnfAffine local_at(const EnfSource *source, uint32_t node, const Drive *drive, int64_t tick) {
-    uint32_t parent = source->nodes[node].parent;
-    EnfSourceNode local = source->nodes[node];
-    EnfAffine inverse;
-    if (parent != ENF_NONE && enf_affine_inverse(&source->nodes[parent].world, &inverse)) {
-        local.world = enf_affine_mul(inverse, local.world);
-        enf_source_decompose(&local);
-    }
-    double v[4];
-    double seconds = time_at(drive, tick);
-    if (drive->paths[ENF_PATH_TRANSLATION]) {
-        value_at(drive->paths[ENF_PATH_TRANSLATION], seconds, v);
-        local.translation = enf_v3(v[0], v[1], v[2]);
-    }
-    if (drive->paths[ENF_PATH_ROTATION]) {
-        value_at(drive->paths[ENF_PATH_ROTATION], seconds, v);
-        local.rotation = (EnfQuat){v[0], v[1], v[2], v[3]};
-    }
-    if (drive->paths[ENF_PATH_SCALE]) {
-        value_at(drive->paths[ENF_PATH_SCALE], seconds, v);
-        local.scale = enf_v3(v[0], v[1], v[2]);
-    }
-    return enf_affine_trs(local.translation, local.rotation, local.scale);
-}
-
-/* ---- what hangs below something that moves ---------------------------------------------------------------------- */
-
-enum { DEPTH_MAX = 16 };
-
-/* The animated nodes from the outermost to the mover itself, and the nodes between them rest relative to them. */
-typedef struct Chain {
-    uint32_t nodes[DEPTH_MAX];
-    Drive drives[DEPTH_MAX];
-    uint32_t count;
-} Chain;
-
-static bool is_driven(const Drive *drive) {
-    return drive->paths[0] || drive->paths[1] || drive->paths[2];
-}
-
-static Chain chain_of(EnfMoverWork *work) {
-    const EnfSource *source = work->parts->source;
-    Chain chain = {.count = 0};
-    for (uint32_t n = work->node; n != ENF_NONE && chain.count < DEPTH_MAX; n = source->nodes[n].parent) {
-        EnfMoverExtras extras = n == work->node ? work->extras : enf_mover_extras(source->nodes[n].extras, "", NULL);
-        Drive drive = drive_of(work, n, &extras);
-        if (is_driven(&drive)) {
-            chain.nodes[chain.count] = n;
-            chain.drives[chain.count++] = drive;
-        }
-    }
-    return chain;
-}
-
-/* The mover's transform at a tick: outermost first; what stands between two animated nodes is the quotient of their rest transforms. */
-static EnfAffine world_at(const EnfSource *source, const Chain *chain, uint32_t mover, int64_t tick) {
-    EnfAffine world = enf_affine_identity();
-    for (uint32_t i = chain->count; i-- > 0;) {
-        uint32_t node = chain->nodes[i], parent = source->nodes[node].parent;
-        if (i + 1 == chain->count) {
-            world = parent == ENF_NONE ? world : source->nodes[parent].world;
-        } else if (parent != chain->nodes[i + 1]) {
-            EnfAffine inverse = enf_affine_identity();
-            enf_affine_inverse(&source->nodes[chain->nodes[i + 1]].world, &inverse);
-            world = enf_affine_mul(world, enf_affine_mul(inverse, source->nodes[parent].world));
-        }
-        world = enf_affine_mul(world, local_at(source, node, &chain->drives[i], tick));
-    }
-    EnfAffine inverse = enf_affine_identity();
-    enf_affine_inverse(&source->nodes[chain->nodes[0]].world, &inverse);
-    return mover == chain->nodes[0] ? world : enf_affine_mul(world, enf_affine_mul(inverse, source->nodes[mover].world));
-}
-
-/* The ticks after which all of the chain is where it was; SAMPLES_MAX at most. `once`: nothing repeats. */
-static uint32_t common_period(const Chain *chain, bool *once, bool *cut) {
-    uint64_t period = 1;
-    *once = true;
-    for (uint32_t i = 0; i < chain->count; i++) {
-        const Drive *drive = &chain->drives[i];
-        uint64_t own = enf_mover_ticks(drive->seconds) * (drive->wrap == ENF_WRAP_PING_PONG ? UINT64_C(2) : 1);
-        *once = *once && drive->wrap == ENF_WRAP_ONCE;
-        uint64_t a = period, b = own;
-        while (b != 0) {
-            uint64_t rest = a % b;
-            a = b;
-            b = rest;
-        }
-        period = period > SAMPLES_MAX ? period : period / a * own;
-    }
-    *cut = period > SAMPLES_MAX;
-    return *cut ? SAMPLES_MAX : (uint32_t)period;
-}
-
-static bool sample_chain(EnfMoverWork *work, const Chain *chain) {
-    const EnfSource *source = work->parts->source;
-    const char *name = source->nodes[work->node].name;
-    bool once, cut;
-    uint32_t ticks = common_period(chain, &once, &cut);
-    uint32_t *numbers[3] = {&work->mover.translation, &work->mover.rotation, &work->mover.scale};
-    if (cut) {
-        enf_diagnose(work->parts->diagnosis, ENF_DIAGNOSIS_MOVER_KEY, name,
-                     "its motion and those it hangs on repeat together after more than ten minutes: it begins again after ten");
-    }
-    for (int t = 0; t < 3; t++) {
-        uint32_t components = targets[t] == ENF_PATH_ROTATION ? 4 : 3;
-        EnfPath path = {.target = targets[t], .kind = ENF_PATH_LINEAR, .key_count = ticks + 1};
-        float *to = new_path(work, name, path, numbers[t]);
-        if (!to) {
-            return false;
-        }
-        for (uint32_t tick = 0; tick <= ticks; tick++) {
-            EnfSourceNode node = {.world = world_at(source, chain, work->node, once ? tick : tick % ticks)};
-            enf_source_decompose(&node);
-            const double values[3][4] = {{node.translation.x, node.translation.y, node.translation.z},
-                                         {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w},
-                                         {node.scale.x, node.scale.y, node.scale.z}};
-            to[tick] = (float)((double)tick / TICK_RATE);
-            for (uint32_t i = 0; i < components; i++) {
-                to[ticks + 1 + tick * components + i] = enf_finite_float(values[t][i]);
-            }
-        }
-    }
-    work->mover.wrap = once ? ENF_WRAP_ONCE : ENF_WRAP_LOOP;
-    work->mover.seconds = (float)((double)ticks / TICK_RATE);
-    work->mover.phase = 0.0f;
-    return true;
-}
-
-/* ---- offered ---------------------------------------------------------------------------------------------------- */
 
 bool enf_mover_path(EnfMoverWork *work) {
-    const EnfSource *source = work->parts->source;
-    Chain chain = chain_of(work);
-    if (chain.count == 0) {
+    const EnfMovers *movers = work->movers;
+    uint32_t driver = movers->driver[work->node], parent = movers->parts->source->nodes[work->node].parent;
+    if (driver == ENF_NONE) {
         return true;
     }
-    work->mover.kind = ENF_MOVER_PATH;
-    Placement place = placement_of(source, work->node);
-    if (chain.count > 1 || chain.nodes[0] != work->node || !place.rigid) {
-        return sample_chain(work, &chain);
+    Placement place = placement_of(work->parts->source, work->node);
+    if (driver != work->node || !place.rigid || (parent != ENF_NONE && movers->driver[parent] != ENF_NONE)) {
+        return enf_mover_chain(work);
     }
-    const Drive *drive = &chain.drives[0];
+    EnfMoverDrive drive = enf_mover_drive(movers, work->node, &work->extras);
     uint32_t *numbers[3] = {&work->mover.translation, &work->mover.rotation, &work->mover.scale};
+    if (!is_near(work, &place, &drive)) {
+        return true;
+    }
     for (int t = 0; t < 3; t++) {
-        if (drive->paths[targets[t]] && !move_curve(work, &place, drive, targets[t], numbers[t])) {
+        if (drive.paths[targets[t]] && !move_curve(work, &place, &drive, targets[t], numbers[t])) {
             return false;
         }
     }
-    work->mover.wrap = drive->wrap;
-    work->mover.seconds = (float)drive->seconds;
-    work->mover.phase = (float)drive->phase;
+    work->mover.kind = ENF_MOVER_PATH;
+    work->mover.wrap = drive.wrap;
+    work->mover.seconds = (float)drive.seconds;
+    work->mover.phase = (float)drive.phase;
     return true;
 }
