@@ -241,8 +241,10 @@ static void sane_value(EnfTestRng *rng, int target, float *v) {
     }
 }
 
-/* Keys at quarters of the node's duration; `whole`: from its beginning to its end. */
-static void sane_curve(EnfTestRng *rng, Made *made, Curve *curve, int target, double first, double duration, bool whole) {
+/* Keys at quarters of the node's duration; translations from its beginning to its end. */
+static void sane_curve(EnfTestRng *rng, Made *made, Node *node, int target, double first, double duration) {
+    Curve *curve = &node->curves[target];
+    bool whole = target == ENF_PATH_TRANSLATION;
     curve->given = true;
     curve->kind = (EnfPathKind)enf_test_below(rng, 3);
     for (int quarter = 0; quarter <= 4; quarter++) {
@@ -286,7 +288,7 @@ static Made sane_level(EnfTestRng *rng) {
         node->wrap = once ? ENF_WRAP_ONCE : 1 + (int)enf_test_below(rng, 2);
         node->phase = enf_test_chance(rng, 2) ? 0.0 : enf_test_double(rng, -2, 2);
         for (int target = 0; target < 3 && enf_test_chance(rng, 2) == (i % 2 == 0); target++) {
-            sane_curve(rng, &made, &node->curves[target], target, first, duration, target == 0);
+            sane_curve(rng, &made, node, target, first, duration);
         }
     }
     return made;
