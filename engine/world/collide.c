@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* Longer sweeps go in pieces of this, metres, so that none gathers a whole level; and no sweep is longer than that many. */
-#define PIECE 8.0
-enum { PIECES_MAX = 4096 };
+#define PIECE 1.0
+enum { PIECES_MAX = 32768 };
 
 /* An overlap of less is rounding: far above that of a pose and of a sweep, far below the skin. */
 #define OVERLAP_MIN 0x1p-20

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* How much farther than asked is gathered, so that the next move finds it there. Metres; 0 for what is already large. */
-#define AHEAD 0.5
+#define AHEAD 0.25
 #define LARGE 4.0
 
 bool enf_collide_reserve(EnfCollider *collider, uint32_t more) {

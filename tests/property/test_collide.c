@@ -1,11 +1,14 @@
 /* Swept capsules against every triangle: none ends inside a surface, none passes one, none stops short, at up to 300 m/s; in the
  * palace, in real levels, in rooms, and in soups of random polygons. */
 #include "harness/purse.h"
-#include "harness/solid_oracle.h"
 #include "scenes/maker.h"
 #include "scenes/rooms.h"
+#include "scenes/solid_oracle.h"
 #include "world/collide_internal.h"
 
+#include <enfilade/tolerances.h>
+
+#include <math.h>
 #include <stdio.h>
 
 /* Metres that rounding may take: positions of 10 km round by 2^-39, the search ends at 2^-24. */
@@ -17,7 +20,7 @@ typedef struct Ground {
     const char *name;
     const EnfMap *map;
     EnfCollider *collider;
-    Oracle oracle;
+    EnfOracle oracle;
     EnfBox3 box; /* to throw bodies into */
     EnfTestRng rng;
     uint64_t moves, hits, ended_inside, tunnels, not_finite, too_near, stopped_short, asked, stuck;
@@ -30,7 +33,7 @@ static void ground_open(Ground *g, const char *name, const EnfMap *map, uint64_t
     g->map = map;
     g->rng = enf_test_rng(stream);
     assert_int_equal(enf_collider_create(&g->collider, map, NULL, NULL, NULL), ENF_OK);
-    oracle_build(&g->oracle, map);
+    assert_true(enf_oracle_build(&g->oracle, map));
     g->box = g->oracle.bounds;
 }
 
@@ -44,12 +47,20 @@ static void ground_close(Ground *g) {
     assert_true(g->moves > 0);
     assert_int_equal(g->ended_inside + g->tunnels + g->not_finite + g->too_near + g->stopped_short + g->stuck, 0);
     enf_collider_destroy(g->collider);
-    oracle_free(&g->oracle);
+    enf_oracle_free(&g->oracle);
+}
+
+/* One number after the other: the order of a call's arguments is the compiler's. */
+static EnfVec3 random_point(EnfTestRng *rng, EnfVec3 low, EnfVec3 high) {
+    double x = enf_test_double(rng, low.x, high.x);
+    double y = enf_test_double(rng, low.y, high.y);
+    double z = enf_test_double(rng, low.z, high.z);
+    return enf_v3(x, y, z);
 }
 
 static EnfVec3 random_way(EnfTestRng *rng) {
     for (;;) {
-        EnfVec3 v = enf_v3(enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1), enf_test_double(rng, -1, 1));
+        EnfVec3 v = random_point(rng, enf_v3(-1, -1, -1), enf_v3(1, 1, 1));
         double square = enf_dot(v, v);
         if (square > 0.01 && square < 1.0) {
             return enf_scale(v, 1.0 / sqrt(square));
@@ -57,11 +68,15 @@ static EnfVec3 random_way(EnfTestRng *rng) {
     }
 }
 
+static EnfVec3 random_blow(EnfTestRng *rng) {
+    double speed = enf_test_double(rng, 0.0, SPEED_MAX);
+    return enf_scale(random_way(rng), speed);
+}
+
 /* A place where the capsule touches nothing; false if a hundred throws found none. */
 static bool throw_in(Ground *g, const EnfCapsule *capsule, EnfVec3 *at) {
     for (int i = 0; i < 100; i++) {
-        *at = enf_v3(enf_test_double(&g->rng, g->box.min.x, g->box.max.x), enf_test_double(&g->rng, g->box.min.y, g->box.max.y),
-                     enf_test_double(&g->rng, g->box.min.z, g->box.max.z));
+        *at = random_point(&g->rng, g->box.min, g->box.max);
         if (!enf_collide_overlap(g->collider, capsule, *at, NULL) && enf_map_locate(g->map, *at) != ENF_NONE) {
             return true;
         }
@@ -71,26 +86,23 @@ static bool throw_in(Ground *g, const EnfCapsule *capsule, EnfVec3 *at) {
 
 /* ---- one sweep, in full ----------------------------------------------------------------------------------------- */
 
-static EnfBox3 swept_box(const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta) {
-    return enf_box3_union(enf_capsule_box(capsule, from, 0.01), enf_capsule_box(capsule, enf_add(from, delta), 0.01));
-}
-
 /* Every triangle near: how near the free part of the way comes; and whether the whole way would have been stopped at all. */
 static void check_sweep(Ground *g, const EnfCapsule *capsule, EnfVec3 from, EnfVec3 delta, const EnfSweepHit *hit) {
-    const Oracle *o = &g->oracle;
+    const EnfOracle *o = &g->oracle;
     EnfVec3 way = enf_scale(delta, hit->t);
+    EnfOracleMove free = {*capsule, from, way}, asked = {*capsule, from, delta};
     double contact = capsule->radius + 0.5 * ENF_TOL_SKIN;
     bool stopped = false, at_hit = false;
     for (uint32_t i = 0; i < o->near_count; i++) {
-        const OracleTriangle *t = &o->triangles[o->near[i]];
-        double where, start = oracle_distance(t, capsule, from), least = oracle_least(t, capsule, from, way, &where);
+        const EnfOracleTriangle *t = &o->triangles[o->near[i]];
+        double where, start = enf_oracle_distance(t, capsule, from), least = enf_oracle_least(t, &free, &where);
         if (least < fmin(start, contact) - ROUNDING) {
             g->too_near++;
         }
-        double whole = oracle_least(t, capsule, from, delta, &where);
+        double whole = enf_oracle_least(t, &asked, &where);
         stopped = stopped || (whole < contact - ROUNDING && where > 0.0 && whole < start - ROUNDING);
         if (t->cluster == hit->cluster && t->triangle == hit->triangle) {
-            double end = oracle_distance(t, capsule, enf_add(from, way));
+            double end = enf_oracle_distance(t, capsule, enf_add(from, way));
             at_hit = end <= capsule->radius + ENF_TOL_SKIN + ROUNDING && whole <= contact + ROUNDING;
         }
     }
@@ -110,9 +122,10 @@ static void check_move(Ground *g, const EnfCapsule *capsule, EnfVec3 from, EnfVe
         g->not_finite++;
         return;
     }
-    oracle_near(&g->oracle, full ? swept_box(capsule, from, delta) : swept_box(capsule, from, enf_sub(to, from)), every);
-    g->ended_inside += oracle_depth(&g->oracle, capsule, to) > ROUNDING;
-    g->tunnels += oracle_tunnels(&g->oracle, capsule, from, to);
+    enf_oracle_near(&g->oracle, full ? enf_oracle_box(capsule, from, delta) : enf_oracle_box(capsule, from, enf_sub(to, from)),
+                    every);
+    g->ended_inside += enf_oracle_depth(&g->oracle, capsule, to) > ROUNDING;
+    g->tunnels += enf_oracle_tunnels(&g->oracle, capsule, from, to);
     if (full) {
         check_sweep(g, capsule, from, delta, hit);
     }
@@ -156,12 +169,12 @@ static void check_body(Ground *g, const EnfCharacter *body, const EnfCharacterRe
     for (uint32_t i = 0; i + 1 < report->path_count; i++) {
         EnfVec3 from = report->path[i], to = report->path[i + 1];
         g->travelled += enf_length(enf_sub(to, from));
-        oracle_near(&g->oracle, swept_box(&low, from, enf_sub(to, from)), false);
-        g->tunnels += oracle_tunnels(&g->oracle, &low, from, to);
-        g->ended_inside += oracle_depth(&g->oracle, &low, to) > ROUNDING;
+        enf_oracle_near(&g->oracle, enf_oracle_box(&low, from, enf_sub(to, from)), false);
+        g->tunnels += enf_oracle_tunnels(&g->oracle, &low, from, to);
+        g->ended_inside += enf_oracle_depth(&g->oracle, &low, to) > ROUNDING;
     }
-    oracle_near(&g->oracle, swept_box(&capsule, body->position, enf_v3(0.0, 0.0, 0.0)), g->moves % 4096 == 0);
-    g->ended_inside += oracle_depth(&g->oracle, &capsule, body->position) > ROUNDING;
+    enf_oracle_near(&g->oracle, enf_oracle_box(&capsule, body->position, enf_v3(0.0, 0.0, 0.0)), g->moves % 4096 == 0);
+    g->ended_inside += enf_oracle_depth(&g->oracle, &capsule, body->position) > ROUNDING;
 }
 
 /* A body at the mercy of dice: keys, and blows that throw it at up to 300 m/s. */
@@ -169,21 +182,24 @@ static EnfCharacterInput random_input(EnfTestRng *rng, const EnfCharacterInput *
     if (!enf_test_chance(rng, 10)) {
         return *before;
     }
-    EnfVec3 way = random_way(rng);
-    EnfCharacterInput input = {way, enf_test_chance(rng, 3), enf_test_chance(rng, 4), enf_test_chance(rng, 2),
-                               enf_test_chance(rng, 6) ? ENF_CHARACTER_FLY : ENF_CHARACTER_WALK};
+    EnfCharacterInput input = {random_way(rng), false, false, false, ENF_CHARACTER_WALK};
+    input.jump = enf_test_chance(rng, 3);
+    input.crouch = enf_test_chance(rng, 4);
+    input.run = enf_test_chance(rng, 2);
+    input.mode = enf_test_chance(rng, 6) ? ENF_CHARACTER_FLY : ENF_CHARACTER_WALK;
     return input;
 }
 
-/* Wherever dice have brought it, a body can go on: some way of nine, jumping, gets it somewhere within a second. */
+/* Wherever dice have brought it, a body can go on: some way of nine, jumping, gets it somewhere within a second; or crouching. */
 static void check_way_on(Ground *g, const EnfCharacter *body) {
     double farthest = 0.0;
-    for (int way = 0; way < 9 && farthest < 0.25; way++) {
+    for (int way = 0; way < 18 && farthest < 0.25; way++) {
         EnfCharacter copy = *body;
-        double turn = (double)way * (ENF_PI / 4.0), length = way == 8 ? 0.0 : 1.0;
+        double turn = (double)(way % 9) * (ENF_PI / 4.0), length = way % 9 == 8 ? 0.0 : 1.0;
         EnfCharacterInput input = {
             {length * enf_cos(turn), 0.0, length * enf_sin(turn)}, false, false, false, ENF_CHARACTER_WALK};
         copy.velocity = enf_v3(0.0, 0.0, 0.0);
+        input.crouch = way >= 9;
         for (int t = 0; t < 60; t++) {
             input.jump = t % 20 == 19;
             enf_character_move(&copy, g->collider, &input, NULL);
@@ -215,7 +231,7 @@ static void walk_about(Ground *g, uint32_t ticks) {
         }
         input = random_input(&g->rng, &input);
         if (enf_test_chance(&g->rng, 5)) {
-            body.velocity = enf_scale(random_way(&g->rng), enf_test_double(&g->rng, 0.0, SPEED_MAX));
+            body.velocity = random_blow(&g->rng);
             body.flags &= ~(uint32_t)ENF_CHARACTER_GROUNDED;
         }
         enf_character_move(&body, g->collider, &input, &report);
@@ -299,8 +315,7 @@ static EnfMaker *make_soup(EnfTestRng *rng, uint32_t count, EnfVec3 origin) {
     for (uint32_t i = 0; i < count; i++) {
         uint32_t owner = enf_test_below(rng, 3);
         EnfVec3 low = enf_add(origin, enf_v3((double)owner * 7.0, 0.0, 0.0)), corner[3];
-        EnfVec3 middle = enf_add(low,
-                                 enf_v3(enf_test_double(rng, 0, 7), enf_test_double(rng, 0, 8), enf_test_double(rng, 0, 10)));
+        EnfVec3 middle = enf_add(low, random_point(rng, enf_v3(0, 0, 0), enf_v3(7, 8, 10)));
         double size = enf_test_chance(rng, 3) ? 3.0 : 0.5, thin = enf_test_chance(rng, 4) ? 0.001 : 1.0;
         EnfVec3 a = enf_scale(random_way(rng), size), b = enf_scale(random_way(rng), size * thin);
         corner[0] = on_grid(middle);
@@ -340,9 +355,10 @@ static void test_distance(void **state) {
     EnfTestRng rng = enf_test_rng(50);
     for (uint32_t i = 0; i < enf_test_rounds(200000, 2000000); i++) {
         EnfNearTriangle t;
-        OracleTriangle o;
+        EnfOracleTriangle o;
         double size = enf_test_chance(&rng, 4) ? 0.01 : 2.0;
-        EnfVec3 middle = enf_scale(random_way(&rng), enf_test_double(&rng, 0, 3));
+        double far = enf_test_double(&rng, 0, 3);
+        EnfVec3 middle = enf_scale(random_way(&rng), far);
         memset(&t, 0, sizeof t);
         for (int k = 0; k < 3; k++) {
             EnfVec3 p = enf_add(middle, enf_scale(random_way(&rng), size));
@@ -353,12 +369,12 @@ static void test_distance(void **state) {
         EnfNearest nearest;
         EnfVec3 zero = enf_v3(0.0, 0.0, 0.0);
         enf_nearest(&t, &capsule, zero, zero, &nearest);
-        double expected = oracle_distance(&o, &capsule, zero);
+        double expected = enf_oracle_distance(&o, &capsule, zero);
         if (!(fabs(nearest.distance - expected) < 1e-9)) {
             fail_msg("triangle %u: %.12g, but %.12g", i, nearest.distance, expected);
         }
         if (nearest.distance > 0.01) { /* a step along the normal leaves by its length: the gradient of a distance */
-            double step = 1e-6, after = oracle_distance(&o, &capsule, enf_scale(nearest.normal, step));
+            double step = 1e-6, after = enf_oracle_distance(&o, &capsule, enf_scale(nearest.normal, step));
             assert_true(fabs(after - expected - step) < 1e-9);
         }
     }
@@ -377,7 +393,7 @@ static uint64_t dice_walk(EnfCollider *collider, const EnfMap *map, EnfTestRng r
     for (uint32_t i = 0; i < ticks; i++) {
         input = random_input(&rng, &input);
         if (enf_test_chance(&rng, 60)) {
-            body.velocity = enf_scale(random_way(&rng), enf_test_double(&rng, 0.0, SPEED_MAX));
+            body.velocity = random_blow(&rng);
         }
         enf_character_move(&body, collider, &input, NULL);
         hash = enf_hash64(hash, &body, sizeof body);

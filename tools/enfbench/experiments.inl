@@ -7,6 +7,8 @@ BENCH(compile, bench_compile, "compile time against size: grids of rooms with do
       "rooms=100,500,2000,7000 tables=1 repeat=1")
 BENCH(kd, bench_kd, "kd query with each SIMD variant against brute force over all boxes",
       "boxes=1000,10000,100000 frames=200 seed=1")
+BENCH(collide, bench_collide, "swept capsules and walking bodies against brute force over every triangle",
+      "scene=palace,freedoom,buildings path=CSV frames=500 moves=100000 brute=1000")
 BENCH(S1, bench_s1, "Sudarsky & Gotsman 1996, test scene 1: a small cube in a large one, update from the root or the common ancestor",
       "rooms=4096")
 BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table", "boxes=5745")
