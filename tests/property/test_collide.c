@@ -15,24 +15,45 @@
 #define ROUNDING 0x1p-22
 #define SPEED_MAX 300.0
 
+/* A door, as the dice know it. */
+typedef struct Swing {
+    uint32_t object;
+    double low, high;
+} Swing;
+
+enum { SWINGS_MAX = 512 };
+
 /* A level under test and what has been seen in it. */
 typedef struct Ground {
     const char *name;
     const EnfMap *map;
+    EnfWorld *world; /* NULL: nothing moves */
+    Swing swings[SWINGS_MAX];
+    uint32_t swing_count;
     EnfCollider *collider;
     EnfOracle oracle;
     EnfBox3 box; /* to throw bodies into */
     EnfTestRng rng;
-    uint64_t moves, hits, ended_inside, tunnels, not_finite, too_near, stopped_short, asked, stuck;
+    uint64_t moves, hits, ended_inside, tunnels, not_finite, too_near, stopped_short, asked, stuck, squeezed, pushed;
     double travelled;
 } Ground;
 
-static void ground_open(Ground *g, const char *name, const EnfMap *map, uint64_t stream) {
+static void ground_open(Ground *g, const char *name, const EnfMap *map, uint64_t stream, bool moving) {
     memset(g, 0, sizeof *g);
     g->name = name;
     g->map = map;
     g->rng = enf_test_rng(stream);
-    assert_int_equal(enf_collider_create(&g->collider, map, NULL, NULL, NULL), ENF_OK);
+    if (moving) {
+        assert_int_equal(enf_world_create(&g->world, map, map->movers_count, NULL, NULL), ENF_OK);
+        assert_int_equal(enf_world_populate(g->world, NULL), ENF_OK);
+        for (uint32_t i = 0; i < map->movers_count && g->swing_count < SWINGS_MAX; i++) {
+            const EnfMover *m = &map->movers[i];
+            if (m->kind == ENF_MOVER_HINGE || m->kind == ENF_MOVER_SLIDE) {
+                g->swings[g->swing_count++] = (Swing){i, (double)m->low, (double)m->high};
+            }
+        }
+    }
+    assert_int_equal(enf_collider_create(&g->collider, map, g->world, NULL, NULL), ENF_OK);
     assert_true(enf_oracle_build(&g->oracle, map));
     g->box = g->oracle.bounds;
 }
@@ -43,10 +64,12 @@ static void ground_close(Ground *g) {
            g->name, (unsigned long long)g->moves, g->travelled, (unsigned long long)g->hits,
            (unsigned long long)g->ended_inside, (unsigned long long)g->tunnels, (unsigned long long)g->not_finite,
            (unsigned long long)g->too_near, (unsigned long long)g->stopped_short);
-    printf("    asked for a way on %llu times, stuck %llu\n", (unsigned long long)g->asked, (unsigned long long)g->stuck);
+    printf("    pushed %llu times, squeezed %llu; ", (unsigned long long)g->pushed, (unsigned long long)g->squeezed);
+    printf("asked for a way on %llu times, stuck %llu\n", (unsigned long long)g->asked, (unsigned long long)g->stuck);
     assert_true(g->moves > 0);
     assert_int_equal(g->ended_inside + g->tunnels + g->not_finite + g->too_near + g->stopped_short + g->stuck, 0);
     enf_collider_destroy(g->collider);
+    enf_world_destroy(g->world);
     enf_oracle_free(&g->oracle);
 }
 
@@ -202,6 +225,9 @@ static void check_way_on(Ground *g, const EnfCharacter *body) {
         input.crouch = way >= 9;
         for (int t = 0; t < 60; t++) {
             input.jump = t % 20 == 19;
+            if (g->world != NULL) {
+                enf_world_advance(g->world, 1);
+            }
             enf_character_move(&copy, g->collider, &input, NULL);
             farthest = fmax(farthest, enf_length(enf_sub(copy.position, body->position)));
         }
@@ -212,6 +238,27 @@ static void check_way_on(Ground *g, const EnfCharacter *body) {
                body->height, body->flags, farthest);
         g->stuck++;
     }
+}
+
+/* Doors and lifts that dice send to and fro. A body may be inside a solid only where it said that it is squeezed. */
+static void stir(Ground *g) {
+    for (uint32_t i = 0; i < g->swing_count; i += 40) {
+        uint32_t index = enf_test_below(&g->rng, g->swing_count);
+        const Swing *swing = &g->swings[index];
+        double target = enf_test_chance(&g->rng, 2) ? swing->low : swing->high;
+        assert_true(enf_world_swing(g->world, enf_world_object(g->world, swing->object), target));
+    }
+    enf_world_advance(g->world, 1);
+}
+
+static void check_solids(Ground *g, const EnfCharacter *body, const EnfCharacterReport *report) {
+    EnfCapsule capsule = enf_character_capsule(body);
+    EnfOverlap overlap;
+    bool inside = enf_collide_overlap(g->collider, &capsule, body->position, &overlap) && overlap.object != ENF_NONE;
+    bool squeezed = (report->moved & ENF_MOVED_SQUEEZED) != 0;
+    g->ended_inside += inside && !squeezed;
+    g->squeezed += squeezed;
+    g->pushed += (report->moved & ENF_MOVED_PUSHED) != 0;
 }
 
 static void walk_about(Ground *g, uint32_t ticks) {
@@ -234,11 +281,17 @@ static void walk_about(Ground *g, uint32_t ticks) {
             body.velocity = random_blow(&g->rng);
             body.flags &= ~(uint32_t)ENF_CHARACTER_GROUNDED;
         }
+        if (g->world != NULL) {
+            stir(g);
+        }
         enf_character_move(&body, g->collider, &input, &report);
         g->hits += (report.moved & ENF_MOVED_BLOCKED) != 0;
         /* who never is inside needs no way out; but a level may leak */
         g->ended_inside += (report.moved & ENF_MOVED_RELOCATED) && !(report.moved & ENF_MOVED_RETURNED);
         check_body(g, &body, &report);
+        if (g->world != NULL) {
+            check_solids(g, &body, &report);
+        }
         if (i % 32 == 31) {
             check_way_on(g, &body);
         }
@@ -258,10 +311,15 @@ static void try_level(const char *name, const char *path, uint32_t moves, uint64
         fail_msg("%s: %s", name, error.message);
     }
     Ground g;
-    ground_open(&g, name, &map, stream);
+    ground_open(&g, name, &map, stream, false);
     fly_about(&g, moves);
     walk_about(&g, moves / 4);
     ground_close(&g);
+    if (map.movers_count > 0) {
+        ground_open(&g, "the same, moving", &map, stream + 100, true);
+        walk_about(&g, moves / 4);
+        ground_close(&g);
+    }
     enf_map_free(&map);
 }
 
@@ -291,7 +349,7 @@ static void test_rooms(void **state) {
     def.seed = enf_test_seed();
     assert_true(enf_rooms_create(&rooms, &def, &error));
     Ground g;
-    ground_open(&g, "rooms", rooms.map, 20);
+    ground_open(&g, "rooms", rooms.map, 20, false);
     fly_about(&g, enf_test_rounds(200000, 2000000));
     walk_about(&g, enf_test_rounds(50000, 500000));
     ground_close(&g);
@@ -339,9 +397,53 @@ static void test_soups(void **state) {
             fail_msg("%s", error.message);
         }
         Ground g;
-        ground_open(&g, "soup", map, 40 + (uint64_t)i);
+        ground_open(&g, "soup", map, 40 + (uint64_t)i, false);
         fly_about(&g, enf_test_rounds(60000, 600000));
         walk_about(&g, enf_test_rounds(10000, 100000));
+        ground_close(&g);
+        enf_maker_destroy(maker);
+    }
+}
+
+/* A box that turns or slides somewhere in the soup, slowly or at a speed at which no door should. */
+static void add_swing(Ground *g) {
+    EnfTestRng *rng = &g->rng;
+    EnfObjectDef def = enf_object_def_default();
+    EnfVec3 half = random_point(rng, enf_v3(0.05, 0.05, 0.05), enf_v3(1.0, 1.0, 1.0));
+    EnfVec3f corners[36];
+    def.motion.kind = enf_test_chance(rng, 2) ? ENF_MOTION_HINGE : ENF_MOTION_SLIDE;
+    EnfSwingMotion *swing = &def.motion.as.swing;
+    memset(swing, 0, sizeof *swing);
+    swing->rest = enf_pose_identity();
+    swing->rest.position = random_point(rng, g->box.min, g->box.max);
+    swing->pivot = enf_add(swing->rest.position, half);
+    swing->axis = enf_test_chance(rng, 3) ? random_way(rng) : enf_v3(0.0, 1.0, 0.0);
+    swing->high = enf_test_double(rng, 0.5, 3.0);
+    swing->rate = enf_test_chance(rng, 4) ? 60.0 : enf_test_double(rng, 0.2, 4.0);
+    def.local = (EnfBox3){enf_scale(half, -1.0), half};
+    EnfObjectId id = enf_world_add(g->world, &def, NULL);
+    enf_solid_box(def.local, corners);
+    uint32_t number;
+    EnfSolidDef solid = {id.index, corners, 12, {{-100, -100, -100}, {100, 100, 100}}};
+    solid.bounds_ws = enf_test_chance(rng, 4) ? enf_box3_empty() : solid.bounds_ws; /* some roam */
+    assert_int_equal(enf_collider_add(g->collider, &solid, &number, NULL), ENF_OK);
+    g->swings[g->swing_count++] = (Swing){id.index, 0.0, swing->high};
+}
+
+static void test_moving_soup(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        EnfTestRng rng = enf_test_rng(60 + (uint64_t)i);
+        EnfMaker *maker = make_soup(&rng, 30, enf_v3(0, 0, 0));
+        EnfError error = {0};
+        const EnfMap *map = enf_maker_finish(maker, &error);
+        assert_non_null(map);
+        Ground g;
+        ground_open(&g, "moving soup", map, 70 + (uint64_t)i, true);
+        for (int k = 0; k < 60; k++) {
+            add_swing(&g);
+        }
+        walk_about(&g, enf_test_rounds(10000, 200000));
         ground_close(&g);
         enf_maker_destroy(maker);
     }
@@ -449,8 +551,13 @@ static void test_without_memory(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_distance),       cmocka_unit_test(test_soups),  cmocka_unit_test(test_rooms),
-    cmocka_unit_test(test_freedoom),       cmocka_unit_test(test_palace), cmocka_unit_test(test_same_bits_and_no_heap),
+    cmocka_unit_test(test_distance),
+    cmocka_unit_test(test_soups),
+    cmocka_unit_test(test_moving_soup),
+    cmocka_unit_test(test_rooms),
+    cmocka_unit_test(test_freedoom),
+    cmocka_unit_test(test_palace),
+    cmocka_unit_test(test_same_bits_and_no_heap),
     cmocka_unit_test(test_without_memory),
 };
 
