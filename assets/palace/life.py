@@ -108,7 +108,8 @@ def hang_doors(scene, portals):
                 for y0, y1 in ((0.0, 0.014), (-moving.LEAF - 0.014, -moving.LEAF)):
                     w = portal.kind.width / 2
                     mesh.append(moving.box((w - 0.03, y0, -GROWN), (w + 0.03, y1, top - GROWN), "wood_light"))
-            at = add(portal.centre[:2], scale(along, hinge))
+            # Its middle lies in the opening's plane: what closes a portal stands before it on either side.
+            at = add(add(portal.centre[:2], scale(along, hinge)), scale(normal[:2], moving.LEAF / 2))
             extras = {
                 "classname": "func_door_rotating",
                 "angle": angle,
