@@ -179,6 +179,18 @@ static void no_pixel_is_lost_among_movers(void **state) {
     }
 }
 
+/* The palace with its own life, and doors that close their portals while they are shut: what closes a portal must hide all beyond. */
+static void the_palace_loses_nothing(void **state) {
+    (void)state;
+    char command[COMMAND_SIZE];
+    const char *map = enf_test_temp_path("palace.enfmap");
+    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2>&1", ENF_BIN_DIR,
+             enf_test_source_path("assets/palace/palace.glb"), map);
+    assert_int_equal(enf_test_shell(command), 0);
+    need_pictures(map);
+    verify(map, enf_test_source_path("maps/palace/tour.csv"), enf_test_long() ? 30 : 2000, NULL, "--doors close --dbv reach");
+}
+
 /* X(level, path): levels with cells and portals made by others. */
 #define LEVELS(X)                                                                                                              \
     X("freedoom/E1M1_rooms", "walk")                                                                                           \
@@ -198,6 +210,6 @@ static void no_pixel_is_lost_among_movers(void **state) {
         {"no_pixel_is_lost_among_movers:" name "." path, no_pixel_is_lost_among_movers, NULL, NULL, LEVEL_STATE(name, path)},  \
         {"cells_that_must_be_seen_are:" name "." path, cells_that_must_be_seen_are, NULL, NULL, LEVEL_STATE(name, path)},
 
-static const struct CMUnitTest tests[] = {LEVELS(LEVEL_TESTS)};
+static const struct CMUnitTest tests[] = {LEVELS(LEVEL_TESTS) cmocka_unit_test(the_palace_loses_nothing)};
 
 ENF_TEST_MAIN(tests)

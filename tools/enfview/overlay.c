@@ -289,7 +289,8 @@ EnfResult overlay_draw_culled(const Overlay *overlay, EnfError *error) {
         list_culled_clusters(overlay->set, map->clusters_count, entries, &culled);
         list_culled_objects(overlay->set, map->movers_count, objects, &culled);
         const EnfDrawList *list = enf_draw_build(overlay->viewer->draw_all, &culled, ENFVIEW_NEAR, overlay->viewer->world, 1.0);
-        enf_gl_draw_wireframe(overlay->viewer->gl, list, 0x38a0a0a0u);
+        uint32_t faint = overlay->viewer->options->debug & DEBUG_DBV ? 0x10a0a0a0u : 0x38a0a0a0u; /* volumes are lines, too */
+        enf_gl_draw_wireframe(overlay->viewer->gl, list, faint);
     } else {
         result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for what is culled");
     }
