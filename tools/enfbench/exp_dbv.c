@@ -88,6 +88,68 @@ bool bench_movers(BenchRun *run) {
     return ok;
 }
 
+/* Every motion; and a few that are visible, with few and with very many hidden. */
+bool bench_million(BenchRun *run) {
+    static const char *const names[] = {"free", "linear", "spline", "character"};
+    bool ok = true;
+    for (int motion = MOVERS_FREE; motion <= MOVERS_CHARACTER && ok; motion++) {
+        MoversDef def = bench_movers_default();
+        def.rooms = 10000;
+        def.movers = 1000000;
+        def.check = 400;
+        def.frames = 1200;
+        def.motion = (MoversMotion)motion;
+        snprintf(def.techniques, sizeof def.techniques, "update-all,flat,sweep,plain,maximal,reach");
+        ok = one(run, "million", names[motion], def);
+    }
+    for (uint32_t movers = 10000; movers <= 1000000 && ok; movers *= 100) {
+        MoversDef def = bench_movers_default();
+        def.rooms = 10000;
+        def.movers = movers;
+        def.visible = 1000;
+        def.check = 400;
+        def.frames = 1200;
+        def.motion = MOVERS_LINEAR;
+        snprintf(def.techniques, sizeof def.techniques, "flat,maximal,reach");
+        ok = one(run, "million", "hidden", def);
+    }
+    return ok;
+}
+
+/* Where volumes have little to win: fast movers of which nothing else is known, doors as wide as the walls, nothing but what is
+ * visible. */
+bool bench_losing(BenchRun *run) {
+    static const double speeds[] = {1.0, 4.0, 16.0, 64.0, 256.0, 1000.0};
+    static const double widths[] = {1.25, 2.5, 5.0, 7.5};
+    bool ok = true;
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds && ok; i++) {
+        MoversDef def = bench_movers_default();
+        def.speed = speeds[i];
+        def.budget = 1.0;
+        def.check = 300;
+        ok = one(run, "losing", "fast movers", def);
+    }
+    for (size_t i = 0; i < sizeof widths / sizeof *widths && ok; i++) {
+        MoversDef def = bench_movers_default();
+        def.door_width = widths[i];
+        def.doors = 100.0;
+        def.budget = 1.0;
+        def.check = 300;
+        ok = one(run, "losing", "open plan", def);
+    }
+    for (uint32_t movers = 10; movers <= 1000 && ok; movers *= 10) {
+        MoversDef def = bench_movers_default();
+        def.movers = movers;
+        def.visible = movers;
+        def.rooms = 16;
+        def.eye = MOVERS_STILL;
+        def.budget = 1.0;
+        def.check = 300;
+        ok = one(run, "losing", "all visible", def);
+    }
+    return ok;
+}
+
 /* ---- Sudarsky & Gotsman ----------------------------------------------------------------------------------------- */
 
 static MoversDef chairs(void) {
@@ -96,26 +158,29 @@ static MoversDef chairs(void) {
     def.eye = MOVERS_STILL;
     def.furniture = 1;
     def.polygons = 12;
-    def.frames = 300;
+    def.frames = 900;
+    def.check = 300;
+    def.budget = 0.6;
     snprintf(def.techniques, sizeof def.techniques, "zbuffer,update-all,flat,constant,adaptive,maximal,optimal,reach");
     return def;
 }
 
-/* 1,100 polygons move: 92 boxes of 12. */
+/* 1,100 polygons move: 92 boxes of 12. And 100,000 boxes. */
 bool bench_s3(BenchRun *run) {
-    static const uint32_t rooms[] = {8, 27, 64, 125, 343, 1000};
+    static const uint32_t rooms[] = {8, 27, 64, 125, 343, 1000, 10000};
     bool ok = true;
-    for (size_t i = 0; i < sizeof rooms / sizeof *rooms && ok; i++) {
+    for (size_t i = 0; i < 2 * (sizeof rooms / sizeof *rooms) && ok; i++) {
         MoversDef def = chairs();
-        def.rooms = rooms[i];
-        def.movers = 92;
-        ok = one(run, "S3", "static varies", def);
+        bool many = i >= sizeof rooms / sizeof *rooms;
+        def.rooms = rooms[i % (sizeof rooms / sizeof *rooms)];
+        def.movers = many ? 100000 : 92;
+        ok = one(run, "S3", many ? "static varies, 100000 movers" : "static varies", def);
     }
     return ok;
 }
 
 bool bench_s4(BenchRun *run) {
-    static const uint32_t rooms[] = {8, 27, 64, 125, 343, 1000, 10000};
+    static const uint32_t rooms[] = {8, 27, 64, 125, 343, 1000, 10000, 25000};
     bool ok = true;
     for (size_t i = 0; i < sizeof rooms / sizeof *rooms && ok; i++) {
         MoversDef def = chairs();
@@ -127,7 +192,7 @@ bool bench_s4(BenchRun *run) {
 }
 
 bool bench_s5(BenchRun *run) {
-    static const uint32_t movers[] = {10, 100, 1000, 10000, 100000};
+    static const uint32_t movers[] = {10, 100, 1000, 10000, 100000, 1000000};
     bool ok = true;
     for (size_t i = 0; i < sizeof movers / sizeof *movers && ok; i++) {
         MoversDef def = chairs();
@@ -139,23 +204,30 @@ bool bench_s5(BenchRun *run) {
 }
 
 /* Cost against looseness: overdraw is what was evaluated for each object drawn. */
-bool bench_s6(BenchRun *run) {
+static bool policies(BenchRun *run, MoversDef def, const char *name) {
     static const uint32_t periods[] = {1, 4, 16, 64, 256, 1024};
-    bool ok = true;
-    for (uint32_t e = 0; e < 2 && ok; e++) {
-        MoversDef def = bench_movers_default();
-        def.eye = e == 0 ? MOVERS_STILL : MOVERS_WALK;
-        snprintf(def.techniques, sizeof def.techniques, "adaptive,maximal,optimal,reach");
-        ok = one(run, "S6", e == 0 ? "policies, still" : "policies, walk", def);
-        for (size_t i = 0; i < sizeof periods / sizeof *periods && ok; i++) {
-            char name[32];
-            snprintf(name, sizeof name, "period=%u, %s", periods[i], e == 0 ? "still" : "walk");
-            snprintf(def.techniques, sizeof def.techniques, "constant");
-            def.period = periods[i];
-            ok = one(run, "S6", name, def);
-        }
+    snprintf(def.techniques, sizeof def.techniques, "adaptive,maximal,optimal,reach");
+    bool ok = one(run, "S6", name, def);
+    for (size_t i = 0; i < sizeof periods / sizeof *periods && ok; i++) {
+        snprintf(def.techniques, sizeof def.techniques, "constant");
+        def.period = periods[i];
+        ok = one(run, "S6", name, def);
     }
     return ok;
+}
+
+bool bench_s6(BenchRun *run) {
+    MoversDef def = bench_movers_default();
+    def.frames = 1800;
+    def.check = 600;
+    def.budget = 1.5;
+    def.eye = MOVERS_STILL;
+    bool ok = policies(run, def, "still");
+    def.eye = MOVERS_WALK;
+    ok = ok && policies(run, def, "walk");
+    def.rooms = 10000;
+    def.movers = 100000;
+    return ok && policies(run, def, "walk, 100000 movers");
 }
 
 /* ---- Paunoo ----------------------------------------------------------------------------------------------------- */
@@ -164,6 +236,8 @@ typedef struct ThesisScene {
     const char *name;
     uint32_t rooms, movers, visible, furniture;
 } ThesisScene;
+
+enum { MANY = 100000 };
 
 static MoversDef thesis(const ThesisScene *scene) {
     MoversDef def = bench_movers_default();
@@ -174,8 +248,20 @@ static MoversDef thesis(const ThesisScene *scene) {
     def.motion = MOVERS_LINEAR;
     def.eye = MOVERS_STILL;
     def.polygons = 100;
-    def.frames = 300;
-    snprintf(def.techniques, sizeof def.techniques, "update-all,flat,sweep,constant,adaptive,maximal,optimal,reach");
+    def.frames = 900;
+    def.check = 300;
+    def.budget = 0.6;
+    snprintf(def.techniques, sizeof def.techniques, "zbuffer,update-all,flat,sweep,constant,adaptive,maximal,optimal,reach");
+    return def;
+}
+
+/* The same with as many as the thesis had not: most of them hidden. */
+static MoversDef with_many(const ThesisScene *scene) {
+    MoversDef def = thesis(scene);
+    def.rooms = 1024;
+    def.movers = MANY;
+    def.visible = scene->visible > 1 ? 100 : 1;
+    def.polygons = 12;
     return def;
 }
 
@@ -187,19 +273,25 @@ static bool thesis_polygons(BenchRun *run, const ThesisScene *scene) {
         def.polygons = polygons[i];
         ok = one(run, scene->name, "test 1: polygons", def);
     }
+    for (size_t i = 0; i < 3 && ok && scene->movers > 1; i++) {
+        MoversDef def = with_many(scene);
+        def.polygons = polygons[i];
+        ok = one(run, scene->name, "test 1: polygons, 100000 movers", def);
+    }
     return ok;
 }
 
+/* Of scene 1, all are visible. */
 static bool thesis_number(BenchRun *run, const ThesisScene *scene) {
-    static const uint32_t movers[] = {2, 4, 6, 8, 10, 1000, 100000};
+    static const uint32_t movers[] = {1, 2, 4, 6, 8, 10, 1000, 10000, 100000};
+    bool alone = scene->movers == 1;
     bool ok = true;
-    for (size_t i = 0; i < sizeof movers / sizeof *movers && ok; i++) {
-        MoversDef def = thesis(scene);
+    for (size_t i = alone ? 0 : 1; i < (alone ? 7U : sizeof movers / sizeof *movers) && ok; i++) {
+        MoversDef def = movers[i] > 10 && !alone ? with_many(scene) : thesis(scene);
         def.movers = movers[i];
-        def.rooms = movers[i] > 10 ? 1024 : scene->rooms;
+        def.polygons = 12;
         def.visible = scene->visible > 1 ? (movers[i] + 1) / 2 : scene->visible;
-        def.visible = def.visible > 100 ? 100 : def.visible;
-        def.polygons = movers[i] > 10 ? 12 : def.polygons;
+        def.visible = alone ? movers[i] : def.visible > 100 ? 100 : def.visible;
         ok = one(run, scene->name, "test 2: number", def);
     }
     return ok;
@@ -209,18 +301,21 @@ static bool thesis_number(BenchRun *run, const ThesisScene *scene) {
 static bool thesis_speed(BenchRun *run, const ThesisScene *scene) {
     static const double speeds[] = {0.1, 1.0, 10.0, 100.0, 1000.0};
     bool ok = true;
-    for (size_t i = 0; i < sizeof speeds / sizeof *speeds && ok; i++) {
-        MoversDef def = thesis(scene);
-        def.speed = speeds[i];
+    for (size_t i = 0; i < 2 * (sizeof speeds / sizeof *speeds) && ok; i++) {
+        bool many = i >= sizeof speeds / sizeof *speeds;
+        if (many && scene->movers == 1) {
+            break;
+        }
+        MoversDef def = many ? with_many(scene) : thesis(scene);
+        def.speed = speeds[i % (sizeof speeds / sizeof *speeds)];
         def.motion = MOVERS_FREE;
-        ok = one(run, scene->name, "test 3: speed", def);
+        ok = one(run, scene->name, many ? "test 3: speed, 100000 movers" : "test 3: speed", def);
     }
     return ok;
 }
 
 static bool thesis_scene(BenchRun *run, const ThesisScene *scene) {
-    bool several = scene->movers > 1;
-    return thesis_polygons(run, scene) && (!several || thesis_number(run, scene)) && thesis_speed(run, scene);
+    return thesis_polygons(run, scene) && thesis_number(run, scene) && thesis_speed(run, scene);
 }
 
 bool bench_b1(BenchRun *run) {

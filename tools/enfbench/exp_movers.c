@@ -214,9 +214,10 @@ static void add_row(BenchRun *run, const char *experiment, const char *name, con
     static const char *const eyes[] = {"still", "walk", "jump"};
     const MoversDef *def = &scene->def;
     BenchRow row = bench_row(experiment, name, techniques[runner->technique].name);
-    snprintf(row.params, sizeof row.params, "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g polygons=%u",
-             def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors,
-             def->polygons);
+    snprintf(row.params, sizeof row.params,
+             "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u", def->rooms,
+             def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors, def->door_width,
+             def->polygons, def->period);
     row.frames = runner->frames;
     row.lost_objects = runner->plain == NULL ? runner->lost : -1.0;
     row.objects = runner->drawn / (double)runner->frames;
