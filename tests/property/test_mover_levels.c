@@ -399,6 +399,7 @@ static void check_mover(const Made *made, const EnfMap *map, uint32_t mover, Enf
     }
 }
 
+/* What the importer lets through, the compiler makes a sound map of, or says what kind of level it is not. */
 static EnfResult compile(const char *level, const char *output, EnfMap *map) {
     EnfError error = {ENF_OK, 0, "", ""};
     EnfCompileReport report;
@@ -410,8 +411,12 @@ static EnfResult compile(const char *level, const char *output, EnfMap *map) {
     if (result == ENF_OK && enf_map_read(map, output, NULL, &error) != ENF_OK) {
         fail_msg("%s", error.message);
     }
-    if (result != ENF_OK && result != ENF_ERROR_LEVEL && result != ENF_ERROR_FORMAT && result != ENF_ERROR_RANGE) {
-        fail_msg("%s: %s", enf_result_text(result), error.message);
+    if (result != ENF_OK && result != ENF_ERROR_LEVEL) {
+        EnfTestImport import = enf_test_import_file(level);
+        if (import.result == ENF_OK) {
+            fail_msg("%s: %s", enf_result_text(result), error.message);
+        }
+        enf_test_import_free(&import);
     }
     return result;
 }

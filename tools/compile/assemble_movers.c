@@ -116,16 +116,19 @@ static void set_flags(EnfMoverWork *work) {
     }
 }
 
-/* A loose thing that stands on the floor has its origin in no room: its middle is asked for. */
+/* A loose thing that stands on the floor, or is let into it, has its origin in no room: its middle is asked for, then what lies
+ * halfway to the corners of its box. */
 static void find_cell(EnfMoverWork *work) {
     EnfEntity *entity = &work->assembly->entities.data[work->mover.entity];
-    if (entity->cell == ENF_NONE && work->mover.mesh != ENF_NONE) {
+    EnfMap map = enf_assembly_map(work->assembly, 0);
+    for (int i = -1; i < 8 && entity->cell == ENF_NONE && work->mover.mesh != ENF_NONE; i++) {
         const EnfMesh *mesh = &work->assembly->meshes.data[work->mover.mesh];
-        EnfVec3 middle = enf_v3(0.5 * ((double)mesh->min[0] + (double)mesh->max[0]),
-                                0.5 * ((double)mesh->min[1] + (double)mesh->max[1]),
-                                0.5 * ((double)mesh->min[2] + (double)mesh->max[2]));
-        EnfMap map = enf_assembly_map(work->assembly, 0);
-        entity->cell = enf_map_locate(&map, enf_affine_point(&work->rest, middle));
+        double at[3];
+        for (int axis = 0; axis < 3; axis++) {
+            double share = i < 0 ? 0.5 : (i >> axis & 1) ? 0.25 : 0.75;
+            at[axis] = (1.0 - share) * (double)mesh->min[axis] + share * (double)mesh->max[axis];
+        }
+        entity->cell = enf_map_locate(&map, enf_affine_point(&work->rest, enf_v3(at[0], at[1], at[2])));
     }
 }
 
