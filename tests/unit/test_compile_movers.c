@@ -433,8 +433,9 @@ static void speeds_and_cells(void **state) {
         ",{\"name\":\"door\",\"mesh\":2,\"translation\":[1,0,2.5],\"extras\":{" HINGED ",\"speed\":90}}"
         ",{\"name\":\"slow\",\"mesh\":0,\"extras\":{\"wrap\":\"pingpong\"}}"
         ",{\"name\":\"jumps\",\"mesh\":0}"
-        ",{\"name\":\"guard\",\"mesh\":2,\"translation\":[6,0,2],\"extras\":{\"classname\":\"npc_guard\",\"speed\":7}}",
-        ",4,5,6,7",
+        ",{\"name\":\"guard\",\"mesh\":2,\"translation\":[6,0,2],\"extras\":{\"classname\":\"npc_guard\",\"speed\":7}}"
+        ",{\"name\":\"lift\",\"mesh\":0,\"translation\":[6,0,2],\"extras\":{\"dynamic\":true}}",
+        ",4,5,6,7,8",
         "\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":5,\"path\":\"translation\"}},"
         "{\"sampler\":0,\"target\":{\"node\":6,\"path\":\"translation\"}}],"
         "\"samplers\":[{\"input\":5,\"output\":6}]}],");
