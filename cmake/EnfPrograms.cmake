@@ -43,13 +43,12 @@ if(scene_sources)
   target_link_libraries(enf_scenes PUBLIC enf_core)
 endif()
 
-# What recordings are of, as enfreplay and the tests of recordings step it: with enf_core alone, so on every machine.
-if(TARGET enf_core)
-  add_library(enf_sim STATIC ${PROJECT_SOURCE_DIR}/tools/enfreplay/sim.c
-                             ${PROJECT_SOURCE_DIR}/tools/enfreplay/doors.c)
+# What recordings are of, as enfreplay and the tests of recordings step it: over enf_core alone, so on every machine.
+if(TARGET enf_game)
+  add_library(enf_sim STATIC ${PROJECT_SOURCE_DIR}/tools/enfreplay/sim.c)
   enf_flags(enf_sim)
   target_include_directories(enf_sim PRIVATE ${PROJECT_SOURCE_DIR}/tools)
-  target_link_libraries(enf_sim PUBLIC enf_core)
+  target_link_libraries(enf_sim PUBLIC enf_game)
 endif()
 
 # enf_program(NAME LIBRARY...): a program from tools/NAME, if the folder has sources and its libraries are there.
@@ -79,7 +78,7 @@ endfunction()
 enf_program(enfc enf_compile)
 enf_program(enfinfo)
 enf_program(enfview enf_gl)
-enf_program(enfreplay enf_gl)
+enf_program(enfreplay enf_gl enf_game)
 enf_program(enfbench enf_gl enf_compile)
 if(TARGET enfbench)
   # The benchmark also times what no public header offers (the variants of engine/simd), and finds the levels that it

@@ -113,10 +113,8 @@ static void close_walk(Walk *walk) {
 
 /* Fails, naming tick and fields, where the state after `tick` is not what was recorded. */
 static void expect_state(const Walk *walk, const EnfReplayTick *tick) {
-    uint64_t fields[ENF_REPLAY_FIELDS_MAX];
     EnfReplayDivergence divergence;
-    sim_fields(walk->sim, fields);
-    if (!enf_replay_compare(&walk->replay, tick, sim_hash(walk->sim), fields, &divergence)) {
+    if (!sim_compare(walk->sim, &walk->replay, tick, &divergence)) {
         char differing[1024] = "";
         for (uint32_t i = 0; i < walk->replay.header.field_count; i++) {
             if (divergence.differing >> i & 1) {

@@ -45,7 +45,7 @@ static int32_t turn(Mash *mash) {
 
 static uint32_t press(Mash *mash) {
     uint32_t buttons = (uint32_t)(next_u64(mash) & next_u64(mash)) & 127; /* each one time in four */
-    if (below(mash, 64) == 0) {
+    if (below(mash, 256) == 0) {
         buttons = (uint32_t)next_u64(mash);
     }
     if (below(mash, 16) != 0) {

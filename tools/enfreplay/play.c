@@ -181,9 +181,11 @@ static EnfResult save_stats(const Play *play, EnfError *error) {
 }
 
 static void print_end(const Play *play) {
+    char how[160];
+    sim_describe(play->session.sim, how);
     fprintf(stderr, "%s: %" PRIu64 " ticks (%.1f s) in %.2f s, state %016" PRIx64 ", %s%s\n", play->recording, play->ticks,
-            (double)play->ticks / (double)play->replay.header.tick_rate, play->seconds, sim_hash(play->session.sim),
-            sim_phase(play->session.sim), play->diverged ? "; DIVERGED" : "");
+            (double)play->ticks / (double)play->replay.header.tick_rate, play->seconds, sim_hash(play->session.sim), how,
+            play->diverged ? "; DIVERGED" : "");
 }
 
 int cmd_run(const Options *options) {
@@ -210,8 +212,10 @@ int cmd_verify(const Options *options) {
         if (result != ENF_OK) {
             enfreplay_fail(&error);
         } else if (play.diverged == 0 && !options->quiet) {
+            char how[160];
+            sim_describe(play.session.sim, how);
             printf("%s: ok, %" PRIu64 " ticks, state %016" PRIx64 ", %s\n", options->files[i], play.ticks,
-                   sim_hash(play.session.sim), sim_phase(play.session.sim));
+                   sim_hash(play.session.sim), how);
         }
         failed += result != ENF_OK || play.diverged > 0;
         close_play(&play);

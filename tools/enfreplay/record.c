@@ -12,13 +12,12 @@
 enum { MASH_TICKS = 3600, SCRIPT_BYTES_MAX = 1 << 20 };
 
 /* Where input comes from. */
-typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_BOT, SOURCE_MASH, SOURCE_PATH, SOURCE_REPLAY } SourceKind;
+typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_MASH, SOURCE_PATH, SOURCE_REPLAY } SourceKind;
 typedef struct Source {
     SourceKind kind;
     uint64_t limit; /* ticks, UINT64_MAX for none */
     Script script;
     Mash mash;
-    SimBot *bot;
     Steer steer;
     EnfReplayCursor cursor;
     const Session *session;
@@ -26,8 +25,8 @@ typedef struct Source {
 
 /* ---- sources ---------------------------------------------------------------------------------------------------- */
 
-/* The input of `tick`; false at the end, and then *result tells whether something failed. */
-static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResult *result, EnfError *error) {
+/* The input of `tick`; false at the end. */
+static bool source_next(Source *source, uint64_t tick, EnfInput *input) {
     if (tick >= source->limit) {
         return false;
     }
@@ -38,14 +37,12 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResul
             return true;
         }
         return false;
-    case SOURCE_BOT:
-        return sim_bot_next(source->bot, input, result, error);
     case SOURCE_MASH:
         *input = mash_next(&source->mash);
         return true;
     case SOURCE_PATH: {
         SimEye eye = sim_eye(source->session->sim);
-        return steer_next(&source->steer, &eye, input);
+        return !sim_is_over(source->session->sim) && steer_next(&source->steer, &eye, input);
     }
     case SOURCE_REPLAY: {
         const EnfReplayTick *recorded = enf_replay_next(&source->cursor);
@@ -59,7 +56,6 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResul
 static void source_close(Source *source) {
     script_free(&source->script);
     steer_close(&source->steer);
-    sim_bot_destroy(source->bot);
 }
 
 static bool parse_u64(const char *text, uint64_t *value) {
@@ -70,20 +66,15 @@ static bool parse_u64(const char *text, uint64_t *value) {
     return *text >= '0' && *text <= '9' && *end == '\0' && errno == 0;
 }
 
-static EnfResult open_script(Source *source, Session *session, const char *path, EnfError *error) {
+static EnfResult open_script(Source *source, const char *path, EnfError *error) {
     EnfFile file;
     EnfResult result = enf_file_read(&file, path, SCRIPT_BYTES_MAX, NULL, error);
     if (result != ENF_OK) {
         return result;
     }
     const char *text = (const char *)file.data;
-    if (script_is_one(text, file.size)) {
-        source->kind = SOURCE_SCRIPT;
-        result = script_parse(&source->script, text, file.size, error);
-    } else {
-        source->kind = SOURCE_BOT;
-        result = sim_bot_create(&source->bot, session->sim, text, file.size, error);
-    }
+    source->kind = SOURCE_SCRIPT;
+    result = script_parse(&source->script, text, file.size, error);
     enf_file_free(&file);
     return result == ENF_OK ? ENF_OK : enf_error_file(error, result, path);
 }
@@ -91,7 +82,7 @@ static EnfResult open_script(Source *source, Session *session, const char *path,
 static EnfResult open_source(Source *source, Session *session, const Options *options, EnfError *error) {
     source->limit = options->ticks ? options->ticks : UINT64_MAX;
     if (options->script) {
-        return open_script(source, session, options->script, error);
+        return open_script(source, options->script, error);
     }
     if (options->path) {
         source->kind = SOURCE_PATH;
@@ -116,25 +107,13 @@ static EnfResult record_all(Session *session, Source *source, EnfRecorder *recor
     EnfInput input = {0, 0, 0, 0, 0};
     EnfResult result = ENF_OK;
     uint64_t total = source->kind == SOURCE_SCRIPT ? source->script.count : source->kind == SOURCE_MASH ? source->limit : 0;
-    for (uint64_t tick = 0; result == ENF_OK && source_next(source, tick, &input, &result, error); tick++) {
-        uint64_t fields[ENF_REPLAY_FIELDS_MAX];
+    for (uint64_t tick = 0; result == ENF_OK && source_next(source, tick, &input); tick++) {
         sim_step(session->sim, &input);
-        sim_fields(session->sim, fields);
-        result = enf_recorder_tick(recorder, &input, sim_hash(session->sim), fields, error);
+        result = sim_record(session->sim, recorder, &input, error);
         progress_tick(&progress, "recording", tick, total);
     }
     progress_end(&progress);
     return result == ENF_OK ? enf_recorder_finish(recorder, error) : result;
-}
-
-/* The header gets what the game and the engine say of themselves. */
-static void fill_header(EnfReplayHeader *header, const Session *session) {
-    header->engine[0] = '\0';
-    snprintf(header->game, sizeof header->game, "%s", sim_game());
-    header->map_hash = session->map.hash;
-    header->start_hash = sim_hash(session->sim);
-    memset(header->fields, 0, sizeof header->fields);
-    sim_name_fields(session->sim, header);
 }
 
 static EnfResult record_to(Session *session, Source *source, const EnfReplayHeader *header, const char *path,
@@ -148,8 +127,10 @@ static EnfResult record_to(Session *session, Source *source, const EnfReplayHead
     uint64_t ticks = enf_recorder_ticks(recorder);
     enf_recorder_destroy(recorder);
     if (result == ENF_OK && !options->quiet) {
+        char how[160];
+        sim_describe(session->sim, how);
         printf("%s: %llu ticks, %.1f s, state %016llx, %s\n", path, (unsigned long long)ticks,
-               (double)ticks / (double)header->tick_rate, (unsigned long long)sim_hash(session->sim), sim_phase(session->sim));
+               (double)ticks / (double)header->tick_rate, (unsigned long long)sim_hash(session->sim), how);
         if (source->kind == SOURCE_PATH && source->steer.given_up > 0) {
             printf("%s: %u of %u rows of the path could not be reached\n", path, source->steer.given_up,
                    source->steer.path.count);
@@ -162,7 +143,6 @@ static EnfResult wanted_header(EnfReplayHeader *header, const Options *options, 
     *header = enf_replay_header_default();
     header->seed = 1;
     header->field_every = options->fields_every;
-    header->tick_rate = ENF_TICK_RATE;
     if (options->seed && !parse_u64(options->seed, &header->seed)) {
         return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "--seed wants a number, not %.40s", options->seed);
     }
@@ -186,7 +166,7 @@ int cmd_record(const Options *options) {
     if (result == ENF_OK && (result = wanted_header(&header, options, &session, &error)) == ENF_OK &&
         (result = session_start(&session, &header, &error)) == ENF_OK &&
         (result = open_source(&source, &session, options, &error)) == ENF_OK) {
-        fill_header(&header, &session);
+        sim_fill_header(session.sim, &header);
         result = record_to(&session, &source, &header, options->output, options, &error);
     }
     source_close(&source);
@@ -208,7 +188,7 @@ static EnfResult update_one(const char *path, const Options *options, EnfError *
         source.cursor = enf_replay_begin(&replay);
         EnfReplayHeader header = replay.header;
         snprintf(header.map, sizeof header.map, "%s", options->map ? session.map_name : replay.header.map);
-        fill_header(&header, &session);
+        sim_fill_header(session.sim, &header);
         result = record_to(&session, &source, &header, path, options, error);
     }
     session_close(&session);

@@ -85,18 +85,8 @@ EnfResult session_open(Session *session, EnfReplay *replay, const Options *optio
 }
 
 bool session_step(Session *session, const EnfReplay *replay, const EnfReplayTick *tick, EnfReplayDivergence *divergence) {
-    uint64_t fields[ENF_REPLAY_FIELDS_MAX] = {0};
-    EnfReplayHeader names = replay->header;
     sim_step(session->sim, &tick->input);
-    uint64_t hash = sim_hash(session->sim);
-    if (hash == tick->hash) {
-        return true;
-    }
-    sim_fields(session->sim, fields);
-    sim_name_fields(session->sim, &names);
-    bool same_fields = names.field_count == replay->header.field_count &&
-                       memcmp(names.fields, replay->header.fields, sizeof names.fields) == 0;
-    return enf_replay_compare(replay, tick, hash, same_fields ? fields : NULL, divergence);
+    return sim_compare(session->sim, replay, tick, divergence);
 }
 
 /* ---- telling ---------------------------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* The simulation that recordings are of, as enfreplay sees it. Only sim.c knows it. */
+/* The simulation that recordings are of, as enfreplay and its tests see it: the game of game/sim. Only sim.c knows it. */
 #ifndef ENFREPLAY_SIM_H
 #define ENFREPLAY_SIM_H
 
@@ -21,24 +21,21 @@ const char *sim_game(void);
 EnfResult sim_create(Sim **sim, const EnfMap *map, const EnfReplayHeader *header, EnfError *error);
 void sim_destroy(Sim *sim);
 
+/** What a recording of it says of the game and the map: writes those members of `header`. The game stands at its start. */
+void sim_fill_header(const Sim *sim, EnfReplayHeader *header);
+
 void sim_step(Sim *sim, const EnfInput *input);
+/** After a step: records it; compares it with what was recorded (as enf_replay_compare). */
+EnfResult sim_record(const Sim *sim, EnfRecorder *recorder, const EnfInput *input, EnfError *error);
+bool sim_compare(const Sim *sim, const EnfReplay *replay, const EnfReplayTick *tick, EnfReplayDivergence *divergence);
 uint64_t sim_hash(const Sim *sim);
-/** Writes names and number of the fields into `header`. */
-void sim_name_fields(const Sim *sim, EnfReplayHeader *header);
-void sim_fields(const Sim *sim, uint64_t hashes[ENF_REPLAY_FIELDS_MAX]);
 
 SimEye sim_eye(const Sim *sim);
 EnfWorld *sim_world(Sim *sim);
 const EnfPortals *sim_portals(const Sim *sim);
-/** How the game stands: "playing", "won", ... */
-const char *sim_phase(const Sim *sim);
-
-/** Input that the game's own bot makes from a script of the game's. */
-typedef struct SimBot SimBot;
-EnfResult sim_bot_create(SimBot **bot, Sim *sim, const char *script, size_t size, EnfError *error);
-void sim_bot_destroy(SimBot *bot);
-/** The input of the next tick; false when the script is at its end. ENF_ERROR in `*failed` is left to the caller: a bot that
- *  cannot do what its script says stops with a message. */
-bool sim_bot_next(SimBot *bot, EnfInput *input, EnfResult *result, EnfError *error);
+/** Is it won or lost? */
+bool sim_is_over(const Sim *sim);
+/** How the game stands, in a few words: "playing in Rotunda-room, 2 of 6 carried out". */
+void sim_describe(const Sim *sim, char text[160]);
 
 #endif

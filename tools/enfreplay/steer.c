@@ -7,7 +7,7 @@
 /* Metres: a row nearer than ARRIVED is behind; STRIDE of the path are skipped where there is no way on. Degrees: TURN a tick at
  * most; ahead only if the row lies within CONE. Ticks without coming nearer: then it uses what is there, goes about it, jumps, gives up. */
 static const double ARRIVED = 0.7, FLOOR = 2.2, STRIDE = 1.5, TURN_DEG = 9.0, CONE_DEG = 50.0, NEARER = 0.02;
-enum { USE_AFTER = 15, SIDESTEP_AFTER = 45, SIDESTEP_TICKS = 30, JUMP_AFTER = 170, GIVE_UP_AFTER = 260 };
+enum { USE_AFTER = 15, SIDESTEP_AFTER = 45, SIDESTEP_TICKS = 30, JUMP_AFTER = 170, GIVE_UP_AFTER = 260, STOP_AFTER = 24 };
 
 EnfResult steer_open(Steer *steer, const char *path, bool run, EnfError *error) {
     memset(steer, 0, sizeof *steer);
@@ -35,6 +35,19 @@ static void aim_at(Steer *steer, uint32_t row) {
     steer->vain = 0;
 }
 
+/* It begins with the row that is nearest. */
+static void begin(Steer *steer, EnfVec3 eye_ws) {
+    double nearest = HUGE_VAL;
+    for (uint32_t row = 0; row < steer->path.count; row++) {
+        double distance = enf_length(enf_sub(row_at(steer, row), eye_ws));
+        if (distance < nearest) {
+            nearest = distance;
+            steer->next = row;
+        }
+    }
+    steer->begun = true;
+}
+
 /* Rows that are reached are done with; one that cannot be reached is given up for one a stride farther on. */
 static void advance(Steer *steer, EnfVec3 eye_ws) {
     uint32_t row = steer->next;
@@ -46,6 +59,7 @@ static void advance(Steer *steer, EnfVec3 eye_ws) {
         row++;
     }
     if (row != steer->next) {
+        steer->in_a_row = 0;
         aim_at(steer, row);
     } else if (steer->vain >= GIVE_UP_AFTER) {
         double walked = 0.0;
@@ -54,7 +68,8 @@ static void advance(Steer *steer, EnfVec3 eye_ws) {
             row++;
         }
         steer->given_up += row - steer->next;
-        aim_at(steer, walked < STRIDE ? steer->path.count : row);
+        steer->in_a_row++;
+        aim_at(steer, walked < STRIDE || steer->in_a_row >= STOP_AFTER ? steer->path.count : row);
     }
 }
 
@@ -65,6 +80,9 @@ static double turn_to(const SimEye *eye, EnfVec3 way) {
 }
 
 bool steer_next(Steer *steer, const SimEye *eye, EnfInput *input) {
+    if (!steer->begun) {
+        begin(steer, eye->eye_ws);
+    }
     advance(steer, eye->eye_ws);
     memset(input, 0, sizeof *input);
     if (steer->next >= steer->path.count) {

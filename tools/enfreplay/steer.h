@@ -11,8 +11,9 @@ typedef struct Steer {
     double nearest;    /**< metres that it has been approached to */
     uint32_t vain;     /**< ticks since it came nearer */
     uint32_t given_up; /**< rows that were skipped */
+    uint32_t in_a_row; /**< times that one was, since one was reached */
     uint32_t buttons;  /**< of the last tick */
-    bool run;
+    bool run, begun;
 } Steer;
 
 /** Reads the path (a CSV file: time,x,y,z,yaw,pitch, of the eye). Free with steer_close. */
@@ -20,7 +21,7 @@ EnfResult steer_open(Steer *steer, const char *path, bool run, EnfError *error);
 void steer_close(Steer *steer);
 
 /** The input of the next tick; false at the end of the path. Where there is no way on, it jumps, uses what is in front of it, and
- *  after some seconds takes a point of the path farther on. */
+ *  after some seconds takes a point of the path farther on; after many of them it stops. */
 bool steer_next(Steer *steer, const SimEye *eye, EnfInput *input);
 
 #endif
