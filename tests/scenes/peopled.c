@@ -52,7 +52,8 @@ static void put_side(EnfVertex *v, const float low[3], const float high[3], int 
 
 /* A box, with the first material of a kind that is drawn. */
 static void put_mesh(EnfMap *map, EnfVertex *vertices, uint32_t *indices, EnfMesh *mesh, EnfMeshPart *part) {
-    static const float low[3] = {-0.25f, 0.0f, -0.25f}, high[3] = {0.25f, 1.75f, 0.25f};
+    /* Odd numbers: a face in the plane of a floor would tie with it in depth, seen from the room beyond. */
+    static const float low[3] = {-0.2471f, 0.0113f, -0.2483f}, high[3] = {0.2479f, 1.7317f, 0.2467f};
     memcpy(mesh->min, low, sizeof low);
     memcpy(mesh->max, high, sizeof high);
     mesh->part_count = 1;
