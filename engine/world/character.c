@@ -358,9 +358,21 @@ static void keep_good(EnfCharacter *body) {
     }
 }
 
-/* Inside the level (after noclip, or put there): out by the nearest way, else back to where it was free last. */
-static void get_out(EnfWalk *walk) {
+/* Out by the nearest way, else back to where it was free last, else out by any way. */
+static bool free_place(EnfWalk *walk, EnfVec3 *place) {
     static const double near = 1.0, far = 6.0;
+    EnfCharacter *body = walk->body;
+    if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, near, place)) {
+        return true;
+    }
+    *place = body->good;
+    bool good = (body->flags & ENF_CHARACTER_HAS_GOOD) != 0 &&
+                !enf_collide_overlap(walk->collider, &walk->capsule, body->good, NULL);
+    return good || enf_collide_way_out(walk->collider, &walk->capsule, body->position, far, place);
+}
+
+/* Inside the level: after noclip, or put there. */
+static void get_out(EnfWalk *walk) {
     EnfCharacter *body = walk->body;
     EnfVec3 place;
     if (has_fallen_out(walk)) {
@@ -368,12 +380,7 @@ static void get_out(EnfWalk *walk) {
         walk->report->moved |= ENF_MOVED_RETURNED;
     } else if (!enf_collide_overlap(walk->collider, &walk->capsule, body->position, NULL)) {
         keep_good(body);
-    } else if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, near, &place)) {
-        put(walk, place);
-    } else if ((body->flags & ENF_CHARACTER_HAS_GOOD) &&
-               !enf_collide_overlap(walk->collider, &walk->capsule, body->good, NULL)) {
-        put(walk, body->good);
-    } else if (enf_collide_way_out(walk->collider, &walk->capsule, body->position, far, &place)) {
+    } else if (free_place(walk, &place)) {
         put(walk, place);
     }
 }

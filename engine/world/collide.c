@@ -176,19 +176,18 @@ static bool sweep_any(EnfCollider *collider, const EnfCapsule *capsule, const En
     if (!(length <= PIECE * PIECES_MAX)) {
         return refuse(delta, hit);
     }
-    double pieces = ceil(length / PIECE);
-    pieces = pieces < 1.0 ? 1.0 : pieces;
-    EnfVec3 part = pieces > 1.0 ? enf_scale(delta, 1.0 / pieces) : delta;
-    for (double i = 0.0; i < pieces; i += 1.0) {
-        EnfSweep sweep = enf_sweep_make(capsule, enf_add(from, enf_scale(part, i)), part);
+    uint32_t pieces = length > PIECE ? (uint32_t)ceil(length / PIECE) : 1;
+    EnfVec3 part = pieces > 1 ? enf_scale(delta, 1.0 / (double)pieces) : delta;
+    for (uint32_t i = 0; i < pieces; i++) {
+        EnfSweep sweep = enf_sweep_make(capsule, enf_add(from, enf_scale(part, (double)i)), part);
         if (!sweep_piece(collider, &sweep, only)) {
             (void)refuse(delta, hit);
-            hit->t = i / pieces;
+            hit->t = (double)i / (double)pieces;
             return true;
         }
         if (sweep.met != NULL) {
             report(collider, &sweep, hit);
-            hit->t = pieces > 1.0 ? (i + hit->t) / pieces : hit->t;
+            hit->t = pieces > 1 ? ((double)i + hit->t) / (double)pieces : hit->t;
             return true;
         }
     }

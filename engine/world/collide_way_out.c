@@ -31,8 +31,7 @@ static bool push_out(EnfCollider *collider, const EnfCapsule *capsule, EnfVec3 a
 
 /* The 26 ways of a cube's corners, edges and faces: up first, down last. */
 static EnfVec3 way_of(int i) {
-    static const int8_t rows[3] = {1, 0, -1};
-    int y = rows[i / 9], x = i % 3 - 1, z = i / 3 % 3 - 1;
+    int y = 1 - i / 9, x = i % 3 - 1, z = i / 3 % 3 - 1;
     return enf_normalize(enf_v3((double)x, (double)y, (double)z));
 }
 

@@ -505,7 +505,7 @@ static void test_hostile_numbers(void **state) {
     gym_spawn(&gym, enf_v3(0.0, 0.0, 0.0));
     EnfCapsule capsule = enf_character_capsule(&gym.body);
     EnfSweepHit hit;
-    const double bad[] = {NAN, INFINITY, -INFINITY, 1e300};
+    const double bad[] = {(double)NAN, HUGE_VAL, -HUGE_VAL, 1e300};
     for (int i = 0; i < 4; i++) {
         assert_true(enf_collide_sweep(gym.collider, &capsule, gym.body.position, enf_v3(0.0, bad[i], 0.0), &hit));
         assert_true(hit.t == 0.0);
