@@ -277,7 +277,11 @@ static bool add_island(EnfPatches *patches, Work *work, uint32_t first, uint32_t
 
 bool enf_patches_add(EnfPatches *patches, const EnfGrid3 *corners, uint32_t triangle_count, uint32_t *degenerate) {
     Work work;
-    bool ok = work_create(&work, triangle_count) || triangle_count == 0;
+    if (triangle_count == 0) { /* nothing to sort: NULL is no array, not even an empty one */
+        *degenerate += 1;
+        return true;
+    }
+    bool ok = work_create(&work, triangle_count);
     if (ok) {
         weld(&work, corners);
         drop_backs(&work);

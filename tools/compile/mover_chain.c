@@ -153,7 +153,7 @@ static uint64_t common_multiple(uint64_t a, uint64_t b) {
         x = y;
         y = rest;
     }
-    return a / x * b;
+    return x > 0 ? a / x * b : b;
 }
 
 /* The ticks after which the whole chain is where it was, or, where nothing repeats (`once`), comes to rest. */

@@ -193,7 +193,8 @@ static EnfBox3 deepened(EnfBox3 box, EnfVec3 n) {
 /* Is the sample of a grid over the opening's polygon met by no leaf? */
 static bool probe_is_free(const Leaves *leaves, const Piece *polygon, EnfVec3 n, uint32_t probe) {
     /* A point of the fan's triangles, by two numbers in (0, 1). */
-    double x = ((double)(probe % PROBES) + 0.5) / PROBES, y = ((double)(probe / PROBES) + 0.5) / PROBES;
+    uint32_t column = probe % PROBES, row = probe / PROBES;
+    double x = ((double)column + 0.5) / PROBES, y = ((double)row + 0.5) / PROBES;
     uint32_t triangle = 1 + probe % (polygon->count - 2);
     EnfVec3 a = polygon->corners[0], b = polygon->corners[triangle], c = polygon->corners[triangle + 1];
     double s = sqrt(x);
