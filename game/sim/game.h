@@ -65,7 +65,7 @@ typedef struct GameState {
     char message[GAME_TEXT_SIZE]; /**< the newest message, or "" once it is old */
 } GameState;
 
-/** X(NAME, "file stem in assets/sounds"): what can be heard. */
+/** X(NAME, "file stem in assets/sounds"): what can be heard. Of a stem without a file of its own there are several, stem_1, stem_2 ... */
 #define GAME_SOUNDS(X)                                                                                                         \
     X(STEP_STONE, "step_stone")                                                                                                \
     X(STEP_WOOD, "step_wood")                                                                                                  \
@@ -75,12 +75,12 @@ typedef struct GameState {
     X(DOOR_OPEN, "door_open")                                                                                                  \
     X(DOOR_SHUT, "door_close")                                                                                                 \
     X(DOOR_LOCKED, "door_locked")                                                                                              \
-    X(LIFT, "elevator_start")                                                                                                  \
-    X(LIFT_STOPS, "elevator_stop")                                                                                             \
+    X(LIFT, "lift_start")                                                                                                      \
+    X(LIFT_STOPS, "lift_stop")                                                                                                 \
     X(SWITCH, "switch")                                                                                                        \
-    X(TAKE, "pickup")                                                                                                          \
-    X(DROP, "drop")                                                                                                            \
-    X(GUARD_STEP, "step_boot")                                                                                                 \
+    X(TAKE, "pick_up")                                                                                                         \
+    X(DROP, "put_down")                                                                                                        \
+    X(GUARD_STEP, "step_stone")                                                                                                \
     X(GUARD_WONDERS, "guard_hm")                                                                                               \
     X(GUARD_SEES, "guard_alert")                                                                                               \
     X(DELIVERED, "delivered")                                                                                                  \
