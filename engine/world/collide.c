@@ -8,6 +8,9 @@
 #define PIECE 1.0
 enum { PIECES_MAX = 32768 };
 
+/* Room for more triangles than a body ever has about it in the densest of our levels, so that no move asks the heap. */
+enum { TRIANGLES_AT_FIRST = 16384 };
+
 /* An overlap of less is rounding: far above that of a pose and of a sweep, far below the skin. */
 #define OVERLAP_MIN 0x1p-20
 
@@ -50,7 +53,7 @@ static bool fill(EnfCollider *c) {
             c->outside[c->outside_count++] = i;
         }
     }
-    return enf_collide_reserve(c, 1024);
+    return enf_collide_reserve(c, TRIANGLES_AT_FIRST);
 }
 
 EnfResult enf_collider_create(EnfCollider **out, const EnfMap *map, EnfWorld *world, const EnfAllocator *allocator,
@@ -68,6 +71,9 @@ EnfResult enf_collider_create(EnfCollider **out, const EnfMap *map, EnfWorld *wo
     EnfResult result = fill(collider) ? ENF_OK : enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "a collider");
     if (result == ENF_OK && world != NULL) {
         result = enf_collide_add_movers(collider, error);
+        if (result == ENF_OK && !enf_collide_sort_solids(collider)) {
+            result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "the solids of a collider");
+        }
     }
     if (result != ENF_OK) {
         enf_collider_destroy(collider);

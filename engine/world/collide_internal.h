@@ -85,6 +85,8 @@ bool enf_collide_gather(EnfCollider *collider, EnfBox3 box);
 EnfBox3 enf_capsule_box(const EnfCapsule *capsule, EnfVec3 at, double margin);
 /** Appends triangles of solids near the region; called by the gathering. */
 bool enf_collide_gather_solids(EnfCollider *collider);
+/** The tree over the solids that have bounds; false without memory. */
+bool enf_collide_sort_solids(EnfCollider *collider);
 /** Room for `more` triangles. */
 bool enf_collide_reserve(EnfCollider *collider, uint32_t more);
 void enf_collide_put(EnfCollider *collider, const EnfVec3 corner[3], uint32_t cluster, uint32_t triangle, uint32_t solid);

@@ -166,8 +166,11 @@ static EnfBox3 posed_box(const EnfSolid *solid) {
 /* ---- the gathering ---------------------------------------------------------------------------------------------- */
 
 /* Solids that roam have no box, and are in no tree. */
-static bool build_tree(EnfCollider *collider) {
+bool enf_collide_sort_solids(EnfCollider *collider) {
     uint32_t count = collider->solid_count;
+    if (count == 0) {
+        return true;
+    }
     EnfBox3f *boxes = enf_alloc(collider->allocator, count, sizeof *boxes);
     uint32_t *items = enf_alloc(collider->allocator, count, sizeof *items);
     bool ok = boxes != NULL && items != NULL;
@@ -222,7 +225,7 @@ bool enf_collide_gather_solids(EnfCollider *collider) {
     if (collider->solid_count == 0) {
         return true;
     }
-    if (collider->tree_stale && !build_tree(collider)) {
+    if (collider->tree_stale && !enf_collide_sort_solids(collider)) {
         return false;
     }
     EnfKdTree tree = enf_kd_tree(&collider->tree);

@@ -539,15 +539,31 @@ static void test_without_memory(void **state) {
     EnfError error = {0};
     const EnfMap *map = enf_maker_finish(maker, &error);
     assert_non_null(map);
-    for (int budget = 0; budget < 32; budget++) {
+    EnfWorld *world;
+    EnfVec3f corners[36];
+    uint32_t number;
+    EnfCapsule capsule = {0.2, 1.0};
+    EnfObjectDef def = enf_object_def_default();
+    assert_int_equal(enf_world_create(&world, map, 1, NULL, &error), ENF_OK);
+    enf_solid_box(def.local, corners);
+    EnfSolidDef solid = {enf_world_add(world, &def, &error).index, corners, 12, {{-1, -1, -1}, {1, 1, 1}}};
+    for (int budget = 0; budget < 120; budget++) {
         Purse purse = {0, budget};
         EnfAllocator allocator = {purse_resize, &purse};
         EnfCollider *collider;
-        EnfResult result = enf_collider_create(&collider, map, NULL, &allocator, &error);
+        EnfResult result = enf_collider_create(&collider, map, world, &allocator, &error);
         assert_true(result == ENF_OK || (result == ENF_ERROR_MEMORY && collider == NULL));
+        for (int i = 0; i < 20 && result == ENF_OK; i++) { /* as many as lists grow for */
+            EnfResult added = enf_collider_add(collider, &solid, &number, &error);
+            EnfSweepHit hit;
+            assert_true(added == ENF_OK || added == ENF_ERROR_MEMORY);
+            (void)enf_collide_sweep(collider, &capsule, enf_v3(3.0, 3.0, 5.0), enf_v3(1.0, 0.0, 0.0), &hit);
+            assert_true(hit.t >= 0.0 && hit.t <= 1.0);
+        }
         enf_collider_destroy(collider);
         assert_int_equal(purse.lent, 0);
     }
+    enf_world_destroy(world);
     enf_maker_destroy(maker);
 }
 

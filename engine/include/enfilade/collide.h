@@ -8,7 +8,7 @@
  * flag collide as the triangles of their mesh at their pose, or as the oriented box of it where the mesh has more than
  * ENF_SOLID_TRIANGLES_MAX, or is FREE (guards). A capsule keeps ENF_TOL_SKIN from surfaces.
  *
- * Threads: one collider a thread. Memory: create, add and reset may use the heap; sweeps and moves do not once warm (a larger
+ * Threads: one collider a thread. Memory: create, add and set_bounds use the heap (and the move after an add); other moves do not (a larger
  * crowd of triangles than ever before grows a buffer; if that fails, the sweep is refused, as if it had hit at once). */
 #ifndef ENFILADE_COLLIDE_H
 #define ENFILADE_COLLIDE_H
