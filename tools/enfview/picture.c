@@ -110,13 +110,23 @@ static EnfResult draw_overlays(Shot *shot, EnfError *error) {
     if (!o->has_freeze && !(o->debug & (DEBUG_PORTALS | DEBUG_WINDOWS | DEBUG_KD | DEBUG_DBV))) {
         return ENF_OK;
     }
-    Overlay overlay = {viewer, shot->set, shot->observer, shot->list->clip_from_eye};
+    Inspect inspect = {.map = &viewer->map,
+                       .portals = &viewer->portals,
+                       .world = viewer->world,
+                       .dbv = viewer->dbv,
+                       .gl = viewer->gl,
+                       .set = shot->set,
+                       .observer = shot->observer,
+                       .clip_from_eye = shot->list->clip_from_eye,
+                       .what = (o->debug & ~(uint32_t)DEBUG_CELLS) | (o->has_freeze ? INSPECT_PYRAMID : 0U)};
+    InspectMemory memory = {.vertices = NULL};
     /* Either mode left its depths in the one depth buffer, so lines hide behind what is in front of them. */
     enf_gl_target_bind(viewer->target, ENF_RENDER_COLOR);
-    EnfResult result = o->has_freeze ? overlay_draw_culled(&overlay, error) : ENF_OK;
+    EnfResult result = o->has_freeze ? inspect_draw_culled(&inspect, &memory, viewer->draw_all, error) : ENF_OK;
     if (result == ENF_OK) {
-        result = overlay_draw_lines(&overlay, error);
+        result = inspect_draw_lines(&inspect, &memory, error);
     }
+    inspect_free(&memory);
     enf_gl_target_read(viewer->target, ENF_RENDER_COLOR, shot->rgba);
     return result;
 }

@@ -16,7 +16,7 @@ typedef struct Pose {
     double yaw_deg, pitch_deg;
 } Pose;
 
-/** Extra drawings, or-ed. */
+/** Extra drawings, or-ed; CELLS beside the numbers of INSPECT_*. */
 enum { DEBUG_PORTALS = 1, DEBUG_CELLS = 2, DEBUG_WINDOWS = 4, DEBUG_KD = 8, DEBUG_DBV = 16 };
 
 /** --dbv: no index, or one of an EnfDbvPolicy (number - 1). */

@@ -49,6 +49,30 @@ void enf_gl_draw_lines(EnfGl *gl, const float clip_from_eye[16], const EnfDebugV
 /** The clusters and movers of `list` as wireframe in one colour over the picture (culled clusters of a frozen camera). */
 void enf_gl_draw_wireframe(EnfGl *gl, const EnfDrawList *list, uint32_t rgba);
 
+/* ---- user interface --------------------------------------------------------------------------------------------- */
+
+/** A corner of a triangle over the picture. */
+typedef struct EnfUiVertex {
+    float x_px, y_px; /**< from the upper left corner, y down */
+    float u, v;       /**< in the atlas, texels */
+    float weight;     /**< half the width of a pen, texels: drawn where the atlas's distance is less; negative: drawn whole */
+    uint32_t rgba;    /**< as it looks (sRGB), straight alpha; R in the low byte */
+} EnfUiVertex;
+
+/** Draws text and flat shapes; knows no map, so that it is there before one (a loading screen). */
+typedef struct EnfGlUi EnfGlUi;
+/** `atlas`: width × height bytes, rows top to bottom: the distance to the nearest pen stroke in 1/16 texel (255: far away). */
+EnfResult enf_gl_ui_create(EnfGlUi **ui, EnfGlLoadFn *load, const uint8_t *atlas, uint32_t width, uint32_t height,
+                           EnfError *error);
+void enf_gl_ui_destroy(EnfGlUi *ui);
+/** `count` vertices, three a triangle, in their order, into the bound framebuffer of width_px × height_px; edges of strokes are
+ *  smooth. Leaves depth test on, blending and GL_FRAMEBUFFER_SRGB off. */
+void enf_gl_ui_draw(EnfGlUi *ui, const EnfUiVertex *vertices, uint32_t count, uint32_t width_px, uint32_t height_px);
+/** Fills the bound framebuffer's colour, RGBA as it looks. */
+void enf_gl_ui_clear(EnfGlUi *ui, uint32_t width_px, uint32_t height_px, uint32_t rgba);
+/** What the window (framebuffer 0) shows before it is swapped: width × height × 4 bytes RGBA, rows bottom to top. */
+void enf_gl_ui_read(EnfGlUi *ui, uint32_t width_px, uint32_t height_px, uint8_t *rgba);
+
 #ifdef __cplusplus
 }
 #endif

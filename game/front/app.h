@@ -1,0 +1,189 @@
+/* What the files of the program share. */
+#ifndef GAME_FRONT_APP_H
+#define GAME_FRONT_APP_H
+
+#include <SDL.h>
+
+#include "front/audio.h"
+#include "front/plan.h"
+#include "front/river.h"
+#include "front/scene.h"
+#include "front/settings.h"
+#include "inspect/inspect.h"
+
+#define APP_NAME "Enfilade"
+
+typedef struct Options {
+    const char *map, *record, *play, *config, *river, *shot;
+    bool headless, fullscreen, mute, tour, stats;
+    uint32_t size[2]; /**< 0: of the settings */
+    uint32_t frames;  /**< 0: until the person quits */
+    uint32_t seed;
+    double speed; /**< of --play */
+} Options;
+
+/* ---- the game that is played, play.c ------------------------------------------------------------------------------ */
+
+/** A game and, if wanted, its recording, or a recording that plays it. */
+typedef struct Play {
+    GameDef def;
+    Game *game;
+    EnfRecorder *recorder;
+    bool replays;
+    EnfReplay replay;
+    EnfReplayCursor cursor;
+    bool diverged, replay_ended;
+    EnfReplayDivergence divergence;
+} Play;
+EnfResult play_open(Play *play, const EnfMap *map, const Options *options, EnfError *error);
+void play_close(Play *play);
+/** A tick with this input (ignored by a replay). Errors of a recording are shown once and end it. */
+void play_step(Play *play, const EnfInput *input);
+/** Ends the recording, if there is one. */
+EnfResult play_finish(Play *play, EnfError *error);
+
+/* ---- input.c -------------------------------------------------------------------------------------------------------- */
+
+typedef struct Input {
+    bool held[ACTION_COUNT];
+    bool mouse_use, mouse_drop;
+    double yaw_deg, pitch_deg; /**< turned by the mouse and not yet given to a tick */
+    bool noclip, fly;
+    SDL_GameController *pad;
+    double pad_forward, pad_right, pad_yaw, pad_pitch; /**< -1..1 */
+    uint32_t pad_buttons;
+} Input;
+void input_release(Input *input); /**< as if every key was let go */
+EnfInput input_take(Input *input, const Settings *settings, double pitch_deg);
+
+/* ---- menu.c ------------------------------------------------------------------------------------------------------ */
+
+typedef enum MenuPage {
+    MENU_NONE,
+    MENU_TITLE,
+    MENU_PAUSE,
+    MENU_SETTINGS,
+    MENU_CONTROLS,
+    MENU_KEYS,
+    MENU_PICTURE,
+    MENU_SOUND,
+    MENU_WON,
+    MENU_LOST
+} MenuPage;
+enum { MENU_DEPTH = 6 };
+typedef struct Menu {
+    MenuPage stack[MENU_DEPTH];
+    uint32_t depth; /**< 0: none */
+    uint32_t chosen[MENU_DEPTH];
+    int waiting;        /**< the action that waits for a key, or -1 */
+    double rows[16][4]; /**< boxes of what was drawn last, for the mouse */
+    uint32_t row_count;
+} Menu;
+
+/* ---- all ------------------------------------------------------------------------------------------------------------ */
+
+typedef enum AppMode { APP_LOADING, APP_TITLE, APP_PLAYING, APP_TOUR } AppMode;
+
+enum { GRAPH_FRAMES = 240 };
+
+/** The engineer's overlay. */
+typedef struct Engineer {
+    bool counters, plan, wireframe, measures;
+    uint32_t lines; /**< INSPECT_* */
+    InspectMemory memory;
+    double frame_ms[GRAPH_FRAMES]; /**< a ring */
+    uint32_t frame;
+    double cull_ms[SCENE_CULLS]; /**< a running mean of each mode */
+    uint32_t cull_turn;
+    uint8_t *lit; /**< a cell */
+} Engineer;
+
+typedef struct App {
+    Options options;
+    Settings settings;
+    char config[SETTINGS_PATH_SIZE]; /**< "" : nowhere to save */
+    SDL_Window *window;
+    SDL_GLContext context;
+    int width_px, height_px; /**< of the window, in pixels */
+    EnfGlUi *ui;
+    Canvas canvas;
+    uint8_t *atlas;
+    EnfMap map;
+    bool map_read;
+    EnfGl *gl;
+    Scene scene;
+    Play play;
+    EnfWorld *tour_world; /**< of title and guided tour: doors stand open */
+    EnfPortals tour_portals;
+    River river;
+    Plan plan;
+    Audio audio;
+    Input input;
+    Menu menu;
+    Engineer engineer;
+    AppMode mode;
+    bool quit, focus, captured, map_shown, over_shown;
+    double behind_ms; /**< time that the simulation has not yet seen */
+    double over_ms;   /**< since the game was won or lost */
+    uint64_t frames, ticks;
+    uint32_t shots;
+    char notice[128]; /**< of the program, not the game */
+    double notice_until_ms;
+} App;
+
+/* window.c: the window, its context and the frame that is shown */
+EnfResult window_open(App *app, EnfError *error);
+void window_close(App *app);
+EnfResult window_ui(App *app, EnfError *error); /**< the user interface in the current context */
+void window_measure(App *app);                  /**< asks for its size; a target of that size */
+void window_apply(App *app);                    /**< size and fullscreen as set */
+void window_capture(App *app, bool on);         /**< the mouse turns the head */
+EnfResult window_shot(App *app, const char *path, EnfError *error);
+void *window_load(const char *name);
+
+/* loading.c */
+EnfResult loading_run(App *app, EnfError *error);
+
+/* events.c */
+void events_handle(App *app);
+
+/* modes.c: what is going on, tick by tick */
+void modes_title(App *app);
+EnfResult modes_play(App *app, EnfError *error);
+void modes_tour(App *app);
+void modes_step(App *app, double elapsed_ms);
+/** Where the picture is taken from now, and how far it is between ticks. */
+double modes_eye(const App *app, EnfVec3 *eye_ws, EnfTurn *turn);
+EnfResult modes_tour_world(App *app, EnfError *error);
+
+/* menu.c */
+void menu_open(App *app, MenuPage page); /**< over the others */
+void menu_close_all(App *app);
+void menu_back(App *app);
+void menu_draw(App *app);
+void menu_move(App *app, int step);
+void menu_change(App *app, int step); /**< a slider or a switch */
+void menu_press(App *app);
+bool menu_take_key(App *app, SDL_Scancode code); /**< true: it waited for that */
+void menu_mouse(App *app, double x, double y, bool pressed);
+MenuPage menu_page(const App *app);
+
+/* hud.c */
+void hud_draw(App *app);
+void hud_notice(App *app, const char *text);
+
+/* engineer.c */
+EnfResult engineer_create(App *app, EnfError *error);
+void engineer_destroy(App *app);
+bool engineer_key(App *app, SDL_Scancode code);
+void engineer_lines(App *app); /**< over the picture in the bound target */
+void engineer_draw(App *app);  /**< over everything */
+void engineer_measure(App *app, double alpha);
+
+/* headless.c */
+int headless_run(App *app);
+
+/** Shows an error where a person sees it; returns ENF_EXIT_FAILURE. */
+int app_fail(App *app, const EnfError *error);
+
+#endif

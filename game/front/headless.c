@@ -1,0 +1,139 @@
+/* Without a window: a recording played as fast as it goes, and frame rates along the guided tour, culled and not. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/cli.h"
+#include "front/app.h"
+
+enum { TOUR_FRAMES = 240, TOUR_SECONDS_MAX = 1800 };
+
+static int fail(const EnfError *error) {
+    fprintf(stderr, "enfilade: %s%s%s\n", error->file, *error->file ? ": " : "",
+            *error->message ? error->message : enf_result_text(error->code));
+    return ENF_EXIT_FAILURE;
+}
+
+/* ---- a recording -------------------------------------------------------------------------------------------------------- */
+
+static int run_play(App *app) {
+    EnfError error = {0};
+    static const EnfInput nothing;
+    if (play_open(&app->play, &app->map, &app->options, &error) != ENF_OK) {
+        return fail(&error);
+    }
+    while (!app->play.replay_ended) {
+        play_step(&app->play, &nothing);
+    }
+    if (app->play.diverged) {
+        printf("differs from its recording at tick %llu\n", (unsigned long long)app->play.divergence.tick);
+        return ENF_EXIT_FAILURE;
+    }
+    const GameState *s = game_state(app->play.game);
+    static const char *const phases[] = {"playing", "won", "lost"};
+    printf("%llu ticks as recorded; %s, %u of %u exhibits carried out\n", (unsigned long long)app->play.replay.ticks,
+           phases[s->phase], s->delivered, s->wanted);
+    return ENF_EXIT_OK;
+}
+
+/* ---- the tour ------------------------------------------------------------------------------------------------------------ */
+
+static int by_value(const void *a, const void *b) {
+    double x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+static double quantile(double *values, uint32_t count, double q) {
+    qsort(values, count, sizeof *values, by_value);
+    uint32_t at = (uint32_t)(q * (double)count);
+    return count ? values[at < count ? at : count - 1] : 0.0;
+}
+
+/* Ticks of the whole tour. */
+static uint32_t tour_ticks(App *app) {
+    uint32_t ticks = 0;
+    river_start(&app->river);
+    while (!app->river.ended && ticks < TOUR_SECONDS_MAX * ENF_TICK_RATE) {
+        river_step(&app->river);
+        ticks++;
+    }
+    return ticks;
+}
+
+static void step_tour(App *app, uint32_t ticks) {
+    for (uint32_t i = 0; i < ticks; i++) {
+        enf_world_advance(app->tour_world, 1);
+        scene_tick(&app->scene);
+        river_step(&app->river);
+    }
+}
+
+static void print_rates(const char *name, double *ms, uint32_t count) {
+    double median = quantile(ms, count, 0.5), slow = quantile(ms, count, 0.95);
+    printf("%-10s median %7.2f ms = %6.1f frames/s; 95 %% of frames within %7.2f ms\n", name, 1.0 * median, 1000.0 / median,
+           slow);
+}
+
+/* Each mode draws the same frames, in turn, with one untimed to warm the caches. */
+static int run_tour(App *app, EnfError *error) {
+    static double ms[SCENE_CULLS][TOUR_FRAMES];
+    uint32_t ticks = tour_ticks(app), frames = app->options.frames ? app->options.frames : TOUR_FRAMES;
+    frames = frames > TOUR_FRAMES ? TOUR_FRAMES : frames;
+    river_start(&app->river);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        step_tour(app, ticks / frames);
+        EnfTurn turn = enf_turn(app->river.yaw_deg, app->river.pitch_deg, 0.0);
+        scene_look(&app->scene, app->river.eye, turn, app->settings.fov);
+        scene_measure(&app->scene, ENF_CULL_WORKLIST, 1.0);
+        for (int cull = 0; app->options.stats && cull < SCENE_CULLS; cull++) {
+            ms[cull][frame] = scene_measure(&app->scene, (EnfCull)cull, 1.0);
+        }
+    }
+    if (app->options.stats) {
+        printf("the guided tour, %.0f s, %u frames of %u x %u px, finished one by one\n", (double)ticks / ENF_TICK_RATE, frames,
+               app->scene.width_px, app->scene.height_px);
+        for (int cull = 0; cull < SCENE_CULLS; cull++) {
+            print_rates(scene_cull_name((EnfCull)cull), ms[cull], frames);
+        }
+    }
+    (void)error;
+    return ENF_EXIT_OK;
+}
+
+static int open_tour(App *app, EnfContext **context, EnfError *error) {
+    if (app->river.count == 0) {
+        enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "this map has no guided tour: name one with --river");
+        return fail(error);
+    }
+    uint32_t width = app->options.size[0] ? app->options.size[0] : 1280;
+    uint32_t height = app->options.size[0] ? app->options.size[1] : 720;
+    EnfResult result = enf_context_create(context, ENF_CONTEXT_ANY, error);
+    EnfGlLoadFn *load = result ? NULL : enf_context_loader(*context);
+    result = result ? result : enf_gl_create(&app->gl, &app->map, load, error);
+    result = result ? result : scene_create(&app->scene, &app->map, app->gl, load, error);
+    result = result ? result : scene_resize(&app->scene, width, height, error);
+    result = result ? result : modes_tour_world(app, error);
+    result = result ? result : scene_attach(&app->scene, app->tour_world, &app->tour_portals, error);
+    return result ? fail(error) : run_tour(app, error);
+}
+
+int headless_run(App *app) {
+    EnfError error = {0};
+    EnfContext *context = NULL;
+    app->settings = settings_default();
+    if (enf_map_read(&app->map, app->options.map, NULL, &error) != ENF_OK) {
+        return fail(&error);
+    }
+    app->map_read = true;
+    if (app->options.play) {
+        return run_play(app);
+    }
+    int status = open_tour(app, &context, &error);
+    scene_destroy(&app->scene); /* while their context lives */
+    enf_gl_destroy(app->gl);
+    app->gl = NULL;
+    enf_context_destroy(context);
+    return status;
+}

@@ -1,0 +1,216 @@
+/* Title, guided tour, play: what goes on in a tick, and from where it is seen. */
+#include <string.h>
+
+#include "front/app.h"
+
+#define TICK_MS (1000.0 / ENF_TICK_RATE)
+/* More ticks are not made up for: a machine that is too slow, or was asleep, plays slower. */
+#define CATCH_UP_MS 250.0
+#define OVER_MENU_MS 1800.0
+
+/* ---- the world of the tour: everything lives, every door stands open -------------------------------------------------- */
+
+static void open_doors(App *app) {
+    for (uint32_t i = 0; i < app->map.movers_count; i++) {
+        const EnfMover *mover = &app->map.movers[i];
+        bool door = mover->portal != ENF_NONE && (mover->kind == ENF_MOVER_HINGE || mover->kind == ENF_MOVER_SLIDE);
+        if (door) {
+            double far = (double)(mover->high >= -mover->low ? mover->high : mover->low);
+            enf_world_swing(app->tour_world, enf_world_object(app->tour_world, i), far);
+        }
+    }
+    for (uint32_t i = 0; i < app->tour_portals.count; i++) {
+        enf_portals_set_open(&app->tour_portals, i, true);
+    }
+    enf_world_advance(app->tour_world, 10 * ENF_TICK_RATE);
+}
+
+EnfResult modes_tour_world(App *app, EnfError *error) {
+    EnfResult result = enf_world_create(&app->tour_world, &app->map, app->map.movers_count, NULL, error);
+    result = result ? result : enf_world_populate(app->tour_world, error);
+    result = result ? result : enf_portals_create(&app->tour_portals, &app->map, NULL, error);
+    if (result == ENF_OK) {
+        open_doors(app);
+    }
+    return result;
+}
+
+/* ---- changing ------------------------------------------------------------------------------------------------------- */
+
+static void begin(App *app, AppMode mode) {
+    app->mode = mode;
+    app->behind_ms = 0.0;
+    app->over_ms = 0.0;
+    app->over_shown = false;
+    app->map_shown = false;
+    input_release(&app->input);
+    app->input.noclip = app->input.fly = false;
+    audio_silence(&app->audio);
+}
+
+static void show_tour_world(App *app) {
+    EnfError error = {0};
+    if (scene_attach(&app->scene, app->tour_world, &app->tour_portals, &error) != ENF_OK) {
+        hud_notice(app, error.message);
+    }
+}
+
+void modes_title(App *app) {
+    begin(app, APP_TITLE);
+    play_close(&app->play);
+    show_tour_world(app);
+    menu_close_all(app);
+    menu_open(app, MENU_TITLE);
+    window_capture(app, false);
+    audio_loop(&app->audio, AUDIO_SLOT_MUSIC, AUDIO_TITLE);
+    audio_loop(&app->audio, AUDIO_SLOT_AMBIENT, -1);
+}
+
+void modes_tour(App *app) {
+    begin(app, APP_TOUR);
+    menu_close_all(app);
+    window_capture(app, true);
+    if (app->river.count) {
+        river_start(&app->river);
+    }
+    hud_notice(app, "Look around with the mouse. Esc: back");
+}
+
+EnfResult modes_play(App *app, EnfError *error) {
+    Play made;
+    EnfResult result = play_open(&made, &app->map, &app->options, error);
+    if (result == ENF_OK) {
+        result = scene_attach(&app->scene, game_world(made.game), game_portals(made.game), error);
+    }
+    if (result != ENF_OK) {
+        play_close(&made);
+        show_tour_world(app);
+        return result;
+    }
+    play_close(&app->play);
+    app->play = made;
+    begin(app, APP_PLAYING);
+    menu_close_all(app);
+    window_capture(app, true);
+    audio_loop(&app->audio, AUDIO_SLOT_MUSIC, -1);
+    audio_loop(&app->audio, AUDIO_SLOT_AMBIENT, AUDIO_NIGHT);
+    return ENF_OK;
+}
+
+/* ---- a tick --------------------------------------------------------------------------------------------------------- */
+
+static void hear(App *app, const GameState *state) {
+    uint32_t count = 0;
+    const GameSound *sounds = game_sounds(app->play.game, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        audio_hear(&app->audio, &sounds[i], state->eye_ws, state->yaw_deg);
+    }
+}
+
+static void play_tick(App *app) {
+    const GameState *state = game_state(app->play.game);
+    EnfInput input = input_take(&app->input, &app->settings, state->pitch_deg);
+    play_step(&app->play, &input);
+    scene_tick(&app->scene);
+    state = game_state(app->play.game);
+    hear(app, state);
+    if (state->phase != GAME_PLAYING) {
+        app->over_ms += TICK_MS;
+        if (!app->over_shown && app->over_ms > OVER_MENU_MS) {
+            app->over_shown = true;
+            menu_open(app, state->phase == GAME_WON ? MENU_WON : MENU_LOST);
+            window_capture(app, false);
+        }
+    }
+}
+
+static void tour_tick(App *app) {
+    enf_world_advance(app->tour_world, 1);
+    scene_tick(&app->scene);
+    if (app->river.count) {
+        app->river.turned_deg += app->input.yaw_deg;
+        app->river.raised_deg += app->input.pitch_deg;
+        river_step(&app->river);
+    }
+    app->input.yaw_deg = app->input.pitch_deg = 0.0;
+}
+
+static bool paused(const App *app) {
+    return app->mode == APP_PLAYING && menu_page(app) != MENU_NONE && !app->over_shown;
+}
+
+void modes_step(App *app, double elapsed_ms) {
+    if (paused(app)) {
+        return;
+    }
+    double speed = app->mode == APP_PLAYING && app->play.replays ? app->options.speed : 1.0;
+    app->behind_ms += elapsed_ms * speed;
+    double most = CATCH_UP_MS * (speed > 1.0 ? speed : 1.0);
+    app->behind_ms = app->behind_ms > most ? most : app->behind_ms;
+    while (app->behind_ms >= TICK_MS) {
+        app->behind_ms -= TICK_MS;
+        app->ticks++;
+        if (app->mode == APP_PLAYING) {
+            play_tick(app);
+        } else {
+            tour_tick(app);
+        }
+    }
+}
+
+/* ---- the eye -------------------------------------------------------------------------------------------------------- */
+
+static EnfVec3 mix(EnfVec3 a, EnfVec3 b, double t) {
+    return enf_add(a, enf_scale(enf_sub(b, a), t));
+}
+
+static double turn_between(double before, double now, double t) {
+    double d = now - before;
+    d -= d > 180.0 ? 360.0 : d < -180.0 ? -360.0 : 0.0;
+    return before + d * t;
+}
+
+/* A person's own look is shown at once, with what the mouse has turned since the last tick; a replay's is between its ticks. */
+static void play_eye(const App *app, double alpha, EnfVec3 *eye_ws, EnfTurn *turn) {
+    const GameState *s = game_state(app->play.game);
+    *eye_ws = mix(s->eye_before_ws, s->eye_ws, alpha);
+    if (app->play.replays) {
+        *turn = enf_turn(turn_between(s->yaw_before_deg, s->yaw_deg, alpha),
+                         turn_between(s->pitch_before_deg, s->pitch_deg, alpha), 0.0);
+        return;
+    }
+    double pitch = s->pitch_deg + app->input.pitch_deg;
+    pitch = pitch > 89.0 ? 89.0 : pitch < -89.0 ? -89.0 : pitch;
+    *turn = enf_turn(s->yaw_deg + app->input.yaw_deg, pitch, 0.0);
+}
+
+static void tour_eye(const App *app, double alpha, EnfVec3 *eye_ws, EnfTurn *turn) {
+    const River *r = &app->river;
+    if (r->count) {
+        *eye_ws = mix(r->eye_before, r->eye, alpha);
+        double pitch = r->pitch_before_deg + (r->pitch_deg - r->pitch_before_deg) * alpha + r->raised_deg +
+                       app->input.pitch_deg;
+        double yaw = r->yaw_before_deg + (r->yaw_deg - r->yaw_before_deg) * alpha + r->turned_deg + app->input.yaw_deg;
+        *turn = enf_turn(yaw, pitch > 80.0 ? 80.0 : pitch < -80.0 ? -80.0 : pitch, 0.0);
+        return;
+    }
+    /* A map without a tour: the middle of its first room, slowly turning. */
+    const EnfCell *c = &app->map.cells[0];
+    for (uint32_t i = 0; i < app->map.cells_count && (c->flags & ENF_CELL_OUTSIDE); i++) {
+        c = &app->map.cells[i];
+    }
+    *eye_ws = enf_v3(c->origin[0] + 0.5 * (double)(c->min[0] + c->max[0]), c->origin[1] + (double)c->min[1] + 1.6,
+                     c->origin[2] + 0.5 * (double)(c->min[2] + c->max[2]));
+    *turn = enf_turn((double)(app->ticks % 7200) * 0.05, 0.0, 0.0);
+}
+
+double modes_eye(const App *app, EnfVec3 *eye_ws, EnfTurn *turn) {
+    double alpha = app->behind_ms / TICK_MS;
+    alpha = alpha < 0.0 ? 0.0 : alpha > 1.0 ? 1.0 : alpha;
+    if (app->mode == APP_PLAYING) {
+        play_eye(app, alpha, eye_ws, turn);
+    } else {
+        tour_eye(app, alpha, eye_ws, turn);
+    }
+    return alpha;
+}
