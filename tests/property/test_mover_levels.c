@@ -546,7 +546,7 @@ static void check_world(const EnfMap *map) {
 static void hostile_levels_are_refused_or_sound(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(2);
-    uint32_t rounds = enf_test_rounds(400, 10000), sound = 0;
+    uint32_t rounds = enf_test_rounds(400, 5000), sound = 0;
     for (uint32_t round = 0; round < rounds; round++) {
         Made made = hostile_level(&rng);
         EnfMap map, again;

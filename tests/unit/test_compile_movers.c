@@ -56,7 +56,8 @@ static const char accessors[] =
     "{\"bufferView\":5,\"componentType\":5126,\"count\":3,\"type\":\"SCALAR\",\"min\":[0.5],\"max\":[2.5]},"
     "{\"bufferView\":6,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
     "{\"bufferView\":7,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
-    "{\"bufferView\":8,\"componentType\":5126,\"count\":9,\"type\":\"VEC3\"}],";
+    "{\"bufferView\":8,\"componentType\":5126,\"count\":9,\"type\":\"VEC3\"},"
+    "{\"bufferView\":3,\"componentType\":5123,\"count\":30,\"type\":\"SCALAR\"}],";
 
 /* Meshes: 0 a crate (outward), 1 a room (inward), 2 a door or portal quad, 3 a crate of material `clip`. */
 static const char meshes[] =
@@ -67,14 +68,17 @@ static const char meshes[] =
     "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":1}]},"
     "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":2}]},";
 
-/* Mesh 5: a crate many times. */
+/* Mesh 5: a crate many times; 6: a room without its wall to +x. */
 static void put_rocks(EnfTestText *out) {
     for (int i = 0; i < ROCKS; i++) {
         enf_test_put(out, i ? "," : "{\"primitives\":[");
         enf_test_put(out, "{\"attributes\":{\"POSITION\":0},\"indices\":2,\"material\":0}");
     }
-    enf_test_put(out, "]}],");
+    enf_test_put(out, "]},{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":9,\"material\":0}]}],");
 }
+
+/* Does the west room lack its wall to the east? */
+static bool west_is_open;
 
 /* A level: two rooms and their portal, then `nodes` (objects with a comma before each), numbered from 4 on and all roots but those in
  * `children_from`; `animations` as JSON, or "". */
@@ -103,8 +107,9 @@ static const char *write_level(const char *nodes, const char *roots, const char 
     enf_test_put(&out, animations);
     enf_test_put(&out, "\"nodes\":[{\"name\":\"west-room\",\"children\":[2,3]},"
                        "{\"name\":\"east-room\",\"mesh\":1,\"scale\":[4,4,4],\"translation\":[6,2,2]},"
-                       "{\"name\":\"west\",\"mesh\":1,\"scale\":[4,4,4],\"translation\":[2,2,2]},"
-                       "{\"name\":\"east*1-portal\",\"mesh\":2,\"translation\":[4,0,2]}");
+                       "{\"name\":\"west\",\"scale\":[4,4,4],\"translation\":[2,2,2],\"mesh\":");
+    enf_test_put(&out, west_is_open ? "6}," : "1},");
+    enf_test_put(&out, "{\"name\":\"east*1-portal\",\"mesh\":2,\"translation\":[4,0,2]}");
     enf_test_put(&out, nodes);
     enf_test_put(&out, "],\"scenes\":[{\"nodes\":[0,1");
     enf_test_put(&out, roots);
@@ -307,6 +312,33 @@ static void doors_and_portals(void **state) {
     release(&level);
 }
 
+/* A leaf that stands before its opening closes it only if nobody can look past it, however aslant. */
+static void doors_before_openings(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *x, *size;
+        bool closes;
+    } doors[] = {{"within", "4", "[0.1,2,1]", true},
+                 {"thin", "4", "[0.001,2,1]", true},
+                 {"before", "3.7", "[0.1,2,1]", false},
+                 {"behind", "4.3", "[0.1,2,1]", false},
+                 {"close", "3.94", "[0.1,2,1]", false}};
+    west_is_open = true;
+    for (size_t i = 0; i < sizeof doors / sizeof *doors; i++) {
+        Compiled level;
+        char nodes[512];
+        snprintf(nodes, sizeof nodes,
+                 ",{\"name\":\"%s\",\"mesh\":0,\"translation\":[%s,1,2],\"scale\":%s,\"extras\":{" HINGED "}}", doors[i].name,
+                 doors[i].x, doors[i].size);
+        compile_level(&level, nodes, ",4", "");
+        if ((level.map.movers[0].portal != ENF_NONE) != doors[i].closes) {
+            fail_msg("the door '%s' %s", doors[i].name, doors[i].closes ? "closes nothing" : "closes its portal");
+        }
+        release(&level);
+    }
+    west_is_open = false;
+}
+
 static void lifts_and_slips_of_the_pen(void **state) {
     (void)state;
     Compiled level;
@@ -498,6 +530,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_stands_is_untouched),
     cmocka_unit_test(speeds_and_cells),
     cmocka_unit_test(told_by_name),
+    cmocka_unit_test(doors_before_openings),
 };
 
 ENF_TEST_MAIN(tests)

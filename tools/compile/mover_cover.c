@@ -4,12 +4,20 @@
 
 #include <math.h>
 
-/* Rays a side of the opening's box by which the leaves are probed for holes. */
-enum { PROBES = 24 };
-/* Triangles of all leaves of one opening: finer ones are not probed, and close nothing. */
-enum { TRIANGLES_MAX = 1 << 16 };
-/* Metres: leaves whose boxes come this near to each other or to the frame leave no gap that a pixel could look through. */
-#define SEAM 1e-3
+enum {
+    PROBES = 24,             /* straight lines a side of the opening, by which the leaves are searched for holes */
+    EDGE_PROBES = 6,         /* points beside each edge of the opening, from which slanting lines look past the leaves */
+    AZIMUTHS = 12,           /* slanting lines around, at each slant */
+    TRIANGLES_MAX = 1 << 13, /* of all leaves of one opening: finer ones are not probed, and close nothing */
+};
+/* Lines times triangles of a level: a hostile one would have more than there is time for, and closes nothing further. */
+#define TESTS_MAX (UINT64_C(1) << 32)
+/* Tangents of the slants: 45, 76 and 87 degrees from straight through. */
+static const double slants[] = {1.0, 4.0, 20.0};
+/* Of the way from an edge to the opening's middle: where those points are. */
+#define INSET 2e-3
+/* Metres: what floats may leave between leaves, or a leaf and its frame, that touch. */
+#define SEAM 1e-5
 /* Metres: a leaf in front of its opening stands at most this far from it. */
 #define DEPTH 0.5
 /* Square metres of an opening that its leaves may leave free: rounding. */
@@ -94,11 +102,13 @@ static void take_boxes(Rest *rest, EnfBox3 box) {
 /* A triangle of a leaf that nothing is seen through. */
 typedef struct Pane {
     EnfVec3 a, u, v; /* a corner and the edges from it */
+    bool both;       /* seen from behind, too */
 } Pane;
 
 /* The doors that are said to close one portal. */
 typedef struct Leaves {
     const EnfAssembly *assembly;
+    EnfMap map; /* the same: what stands */
     uint32_t portal;
     const uint32_t *movers;
     uint32_t count;
@@ -149,28 +159,60 @@ static bool add_panes(Leaves *leaves, uint32_t mover) {
         if (!hides(assembly, part)) {
             continue;
         }
+        bool both = (assembly->materials.data[part->material].flags & ENF_MATERIAL_DOUBLE_SIDED) != 0;
         if (part->index_count / 3 > TRIANGLES_MAX - leaves->panes.count ||
             !ENF_ARRAY_ROOM(&leaves->panes, part->index_count / 3)) {
             return false;
         }
         for (uint32_t i = part->index_first; i < part->index_first + part->index_count; i += 3) {
-            EnfVec3 a = corner_of(assembly, &rest, i);
-            leaves->panes.data[leaves->panes.count++] = (Pane){a, enf_sub(corner_of(assembly, &rest, i + 1), a),
-                                                               enf_sub(corner_of(assembly, &rest, i + 2), a)};
+            EnfVec3 a = corner_of(assembly, &rest, i), b = corner_of(assembly, &rest, i + 1);
+            EnfVec3 c = corner_of(assembly, &rest, i + 2);
+            leaves->panes.data[leaves->panes.count++] = (Pane){a, enf_sub(b, a), enf_sub(c, a), both};
         }
     }
     return true;
 }
 
-/* Does the line through `at` along `n` meet the pane within DEPTH? Moller & Trumbore 1997. */
-static bool line_meets(const Pane *pane, EnfVec3 at, EnfVec3 n) {
-    EnfVec3 h = enf_cross(n, pane->v), s = enf_sub(at, pane->a), q = enf_cross(s, pane->u);
-    double det = enf_dot(pane->u, h);
-    if (fabs(det) < 1e-14) {
+/* Does the line from `at` along `way` meet the pane between `t_min` and `t_max`, from a side on which whoever looks along `way` sees it?
+ * Moller & Trumbore 1997. */
+static bool line_meets(const Pane *pane, EnfVec3 at, EnfVec3 way, double t_min, double t_max) {
+    EnfVec3 h = enf_cross(way, pane->v), s = enf_sub(at, pane->a), q = enf_cross(s, pane->u);
+    double det = enf_dot(pane->u, h); /* positive where the line comes from the front */
+    if ((det < 1e-14 && !pane->both) || fabs(det) < 1e-14) {
         return false;
     }
-    double x = enf_dot(s, h) / det, y = enf_dot(n, q) / det, t = enf_dot(pane->v, q) / det;
-    return x >= -1e-9 && y >= -1e-9 && x + y <= 1.0 + 1e-9 && fabs(t) <= DEPTH;
+    double x = enf_dot(s, h) / det, y = enf_dot(way, q) / det, t = enf_dot(pane->v, q) / det;
+    return x >= -1e-9 && y >= -1e-9 && x + y <= 1.0 + 1e-9 && t >= t_min && t <= t_max;
+}
+
+static bool leaves_meet(const Leaves *leaves, EnfVec3 at, EnfVec3 way, double t_min, double t_max) {
+    bool met = false;
+    for (uint32_t i = 0; i < leaves->panes.count && !met; i++) {
+        met = line_meets(&leaves->panes.data[i], at, way, t_min, t_max);
+    }
+    return met;
+}
+
+/* Does what stands before the opening hide it from whoever looks along `way`? What he meets last before it must face him. */
+static bool wall_hides(const Leaves *leaves, uint32_t cell, EnfVec3 at, EnfVec3 way, double t_max) {
+    EnfRayHit hit;
+    if (!enf_map_ray(&leaves->map, cell, at, enf_scale(way, -1.0), t_max, &hit)) {
+        return false;
+    }
+    const EnfMaterial *material = &leaves->map.materials[leaves->map.clusters[hit.cluster].material];
+    bool faces = !hit.front || (material->flags & ENF_MATERIAL_DOUBLE_SIDED);
+    return faces && material->alpha_mode == ENF_ALPHA_OPAQUE && !(material->flags & ENF_MATERIAL_NODRAW);
+}
+
+/* Does somebody in the cell `near` who looks along `way` through the point `at` of the opening meet a leaf before he sees anything that
+ * stands beyond it? `way` goes 1 metre through the opening for each of its units. */
+static bool line_is_shut(const Leaves *leaves, uint32_t near, uint32_t beyond, EnfVec3 at, EnfVec3 way) {
+    if (leaves_meet(leaves, at, way, -DEPTH, SEAM)) {
+        return true;
+    }
+    EnfRayHit hit = {DEPTH, ENF_NONE, ENF_NONE, false};
+    enf_map_ray(&leaves->map, beyond, at, way, DEPTH, &hit);
+    return leaves_meet(leaves, at, way, -DEPTH, hit.t + SEAM) || wall_hides(leaves, near, at, way, DEPTH);
 }
 
 static Piece portal_polygon(const EnfAssembly *assembly, uint32_t portal) {
@@ -190,21 +232,54 @@ static EnfBox3 deepened(EnfBox3 box, EnfVec3 n) {
     return (EnfBox3){enf_sub(box.min, grow), enf_add(box.max, grow)};
 }
 
-/* Is the sample of a grid over the opening's polygon met by no leaf? */
-static bool probe_is_free(const Leaves *leaves, const Piece *polygon, EnfVec3 n, uint32_t probe) {
-    /* A point of the fan's triangles, by two numbers in (0, 1). */
+/* A point of the opening: of a grid over the triangles of its fan. */
+static EnfVec3 grid_point(const Piece *polygon, uint32_t probe) {
     uint32_t column = probe % PROBES, row = probe / PROBES;
-    double x = ((double)column + 0.5) / PROBES, y = ((double)row + 0.5) / PROBES;
+    double x = ((double)column + 0.5) / PROBES, y = ((double)row + 0.5) / PROBES; /* two numbers in (0, 1) */
     uint32_t triangle = 1 + probe % (polygon->count - 2);
     EnfVec3 a = polygon->corners[0], b = polygon->corners[triangle], c = polygon->corners[triangle + 1];
     double s = sqrt(x);
-    EnfVec3 at = enf_add(enf_add(enf_scale(a, 1.0 - s), enf_scale(b, s * (1.0 - y))), enf_scale(c, s * y));
-    for (uint32_t i = 0; i < leaves->panes.count; i++) {
-        if (line_meets(&leaves->panes.data[i], at, n)) {
-            return false;
-        }
+    return enf_add(enf_add(enf_scale(a, 1.0 - s), enf_scale(b, s * (1.0 - y))), enf_scale(c, s * y));
+}
+
+/* Is a line through the opening shut from both sides? */
+static bool is_shut(const Leaves *leaves, EnfVec3 at, EnfVec3 way) {
+    const EnfPortal *portal = &leaves->assembly->portals.data[leaves->portal];
+    return line_is_shut(leaves, portal->source, portal->target, at, way) &&
+           line_is_shut(leaves, portal->target, portal->source, at, enf_scale(way, -1.0));
+}
+
+/* How many of the slanting lines through a point are free. */
+static uint32_t free_slants(const Leaves *leaves, EnfVec3 at, EnfVec3 n, EnfVec3 along) {
+    EnfVec3 across = enf_cross(n, along);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < AZIMUTHS * (sizeof slants / sizeof *slants); i++) {
+        double angle = 2.0 * ENF_PI * (double)(i % AZIMUTHS) / AZIMUTHS, slant = slants[i / AZIMUTHS];
+        EnfVec3 aside = enf_add(enf_scale(along, slant * enf_cos(angle)), enf_scale(across, slant * enf_sin(angle)));
+        count += !is_shut(leaves, at, enf_add(n, aside));
     }
-    return true;
+    return count;
+}
+
+/* The share of free lines: straight ones all over the opening, slanting ones beside its edges, where a leaf that stands before it, not
+ * in it, would be looked past. `n`: from the source to the target. */
+static double free_lines(const Leaves *leaves, const Piece *polygon, EnfVec3 n) {
+    uint32_t count = PROBES * PROBES, open = 0;
+    EnfVec3 middle = enf_v3(0.0, 0.0, 0.0);
+    for (uint32_t probe = 0; probe < PROBES * PROBES; probe++) {
+        open += !is_shut(leaves, grid_point(polygon, probe), n);
+    }
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        middle = enf_add(middle, enf_scale(polygon->corners[i], 1.0 / polygon->count));
+    }
+    for (uint32_t i = 0; i < polygon->count * EDGE_PROBES; i++) {
+        EnfVec3 a = polygon->corners[i / EDGE_PROBES], b = polygon->corners[(i / EDGE_PROBES + 1) % polygon->count];
+        EnfVec3 edge = enf_sub(b, a), at = enf_add(a, enf_scale(edge, ((double)(i % EDGE_PROBES) + 0.5) / EDGE_PROBES));
+        at = enf_add(at, enf_scale(enf_sub(middle, at), INSET));
+        open += free_slants(leaves, at, n, enf_normalize(edge));
+        count += AZIMUTHS * (uint32_t)(sizeof slants / sizeof *slants);
+    }
+    return (double)open / count;
 }
 
 /* The share of the opening that the leaves' boxes leave free. */
@@ -227,10 +302,10 @@ static double outside_boxes(const Leaves *leaves, const Piece *polygon, EnfVec3 
     return left <= FREE_AREA ? 0.0 : left / whole;
 }
 
-/* The share of the opening that the leaves leave free: by their boxes, then by rays through holes in them. */
-static double free_share(Leaves *leaves) {
+/* The share of the opening that the leaves leave free: by their boxes, then by lines through and past them. `tests`: of the level. */
+static double free_share(Leaves *leaves, uint64_t *tests) {
     Piece polygon = portal_polygon(leaves->assembly, leaves->portal);
-    if (polygon.count < 3) {
+    if (polygon.count < 3 || leaves->assembly->portals.data[leaves->portal].transform != ENF_NONE) {
         return 1.0;
     }
     EnfVec3 n = enf_plane_from_polygon(polygon.corners, polygon.count).n;
@@ -240,11 +315,9 @@ static double free_share(Leaves *leaves) {
         probed = add_panes(leaves, leaves->movers[i]);
     }
     if (share <= 0.0) {
-        uint32_t holes = 0;
-        for (uint32_t probe = 0; probe < PROBES * PROBES && probed; probe++) {
-            holes += probe_is_free(leaves, &polygon, n, probe);
-        }
-        share = probed ? (double)holes / (PROBES * PROBES) : 1.0;
+        uint64_t lines = PROBES * PROBES + (uint64_t)polygon.count * EDGE_PROBES * AZIMUTHS * (sizeof slants / sizeof *slants);
+        *tests += 2 * lines * leaves->panes.count;
+        share = probed && *tests <= TESTS_MAX ? free_lines(leaves, &polygon, n) : 1.0;
     }
     free(leaves->panes.data);
     return share;
@@ -342,13 +415,13 @@ static int by_portal(const void *a, const void *b) {
 }
 
 /* The doors of one portal close it, or are told why not. `leaves`: scratch for their movers. */
-static void settle(EnfMovers *movers, const Claim *claims, uint32_t count, uint32_t *numbers) {
+static void settle(EnfMovers *movers, const Claim *claims, uint32_t count, uint32_t *numbers, uint64_t *tests) {
     EnfAssembly *assembly = movers->assembly;
     for (uint32_t i = 0; i < count; i++) {
         numbers[i] = claims[i].mover;
     }
-    Leaves leaves = {assembly, claims[0].portal, numbers, count, {NULL, 0, 0}};
-    double share = free_share(&leaves);
+    Leaves leaves = {assembly, enf_assembly_map(assembly, 0), claims[0].portal, numbers, count, {NULL, 0, 0}};
+    double share = free_share(&leaves, tests);
     for (uint32_t i = 0; i < count; i++) {
         if (share <= 0.0) {
             assembly->movers.data[numbers[i]].portal = claims[0].portal;
@@ -364,6 +437,7 @@ static void settle(EnfMovers *movers, const Claim *claims, uint32_t count, uint3
 bool enf_movers_close_portals(EnfMovers *movers) {
     EnfAssembly *assembly = movers->assembly;
     uint32_t count = 0, mover_count = assembly->movers.count;
+    uint64_t tests = 0;
     EnfBox3 *boxes = malloc(((size_t)assembly->portals.count + 1) * sizeof *boxes);
     Claim *claims = malloc(((size_t)mover_count + 1) * sizeof *claims);
     uint32_t *numbers = malloc(((size_t)mover_count + 1) * sizeof *numbers);
@@ -383,7 +457,7 @@ bool enf_movers_close_portals(EnfMovers *movers) {
     for (uint32_t first = 0, end; first < count; first = end) {
         for (end = first + 1; end < count && claims[end].portal == claims[first].portal; end++) {
         }
-        settle(movers, claims + first, end - first, numbers);
+        settle(movers, claims + first, end - first, numbers, &tests);
     }
     free(boxes);
     free(claims);
