@@ -129,14 +129,16 @@ static bool holds(const EnfBox3 *a, const EnfBox3 *b) {
     return enf_box3_contains(*a, b->min) && enf_box3_contains(*a, b->max);
 }
 
-/* The world's clock, as far as poses depend on it: its tick, and how many changes it has seen within it. */
+/* The world's clock, as far as poses depend on it: its tick, how many changes it has seen within it, and pushes. */
 static bool solids_are_fresh(EnfCollider *collider) {
     if (collider->solid_count == 0) {
         return true;
     }
     uint32_t changes;
     (void)enf_world_changes(collider->world, &changes);
-    bool fresh = collider->tick == enf_world_tick(collider->world) && collider->changes == changes;
+    bool fresh = collider->tick == enf_world_tick(collider->world) && collider->changes == changes &&
+                 collider->pushes == enf_world_pushes(collider->world);
+    collider->pushes = enf_world_pushes(collider->world);
     collider->tick = enf_world_tick(collider->world);
     collider->changes = changes;
     return fresh;

@@ -68,6 +68,7 @@ struct EnfCollider {
     EnfBox3 region; /* that they were gathered for; empty: none */
     int64_t tick;   /* at which the solids' triangles were taken */
     uint32_t changes;
+    uint64_t pushes;
     bool failed;     /* no memory for all of them */
     uint8_t ignored; /* of any solid */
     EnfSolid *solids;

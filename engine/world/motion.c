@@ -294,6 +294,9 @@ double enf_swing_position(const EnfMotion *motion, int64_t tick) {
 
 void enf_free_push(EnfMotion *motion, int64_t tick, EnfPose pose) {
     ENF_ASSERT(motion->kind == ENF_MOTION_FREE);
+    if (tick > motion->as.free.push_tick) {
+        motion->as.free.last = motion->as.free.pose;
+    }
     motion->as.free.pose = pose;
     motion->as.free.push_tick = tick;
 }
@@ -312,7 +315,10 @@ EnfPose enf_motion_state(const EnfMotion *motion, int64_t tick) {
     case ENF_MOTION_SLIDE:
         return slide_pose(&motion->as.swing, swing_at(&motion->as.swing, tick));
     case ENF_MOTION_FREE:
-        return motion->as.free.ask != NULL ? motion->as.free.ask(motion->as.free.user, tick) : motion->as.free.pose;
+        if (motion->as.free.ask != NULL) {
+            return motion->as.free.ask(motion->as.free.user, tick);
+        }
+        return tick < motion->as.free.push_tick ? motion->as.free.last : motion->as.free.pose;
     case ENF_MOTION_CALLBACK:
         return motion->as.callback.state(motion->as.callback.user, tick);
     case ENF_MOTION_STILL:

@@ -20,7 +20,7 @@ struct EnfWorld {
     const EnfAllocator *allocator;
     int64_t tick;
     bool trail; /* boxes hold the tick before, too */
-    uint64_t evaluations;
+    uint64_t evaluations, pushes;
     Object *objects;
     EnfMotion *motions;
     uint32_t *free_indices; /* a stack of the dead */
@@ -297,6 +297,40 @@ static EnfBox3 pose_box(const EnfWorld *world, uint32_t index, EnfPose pose) {
     still.kind = ENF_MOTION_STILL;
     still.as.still = pose;
     return enf_motion_bound(&still, &world->objects[index].local, world->tick, world->tick);
+}
+
+/* Does the new place lie within what the largest speed allows since the last push, a millionth less? Then, however many pushes
+ * follow one another, volumes made since the first of them hold the last: what is left out is more than the rounding of boxes,
+ * where a tick's way is not below a millionth of the coordinates. */
+static bool within_speed(const EnfWorld *world, uint32_t index, EnfPose pose) {
+    const EnfFreeMotion *free = &world->motions[index].as.free;
+    EnfBox3 before = pose_box(world, index, free->pose), now = pose_box(world, index, pose);
+    if (memcmp(&before, &now, sizeof now) == 0) {
+        return true;
+    }
+    int64_t elapsed = world->tick > free->push_tick ? world->tick - free->push_tick : 0;
+    double way = free->max_speed * (double)elapsed / ENF_TICK_RATE * (1.0 - 0x1p-20);
+    double size = enf_length(before.min) + enf_length(before.max);
+    EnfVec3 reach = enf_v3(way, way, way);
+    EnfBox3 allowed = {enf_sub(before.min, reach), enf_add(before.max, reach)};
+    return way >= 0x1p-20 * size && enf_box3_contains(allowed, now.min) && enf_box3_contains(allowed, now.max);
+}
+
+bool enf_world_push(EnfWorld *world, EnfObjectId id, const EnfPose *pose) {
+    if (!enf_world_alive(world, id) || world->motions[id.index].kind != ENF_MOTION_FREE ||
+        world->motions[id.index].as.free.ask != NULL || !reserve_change(world)) {
+        return false;
+    }
+    if (!within_speed(world, id.index, *pose)) {
+        world->changes[world->change_count++] = id.index;
+    }
+    enf_free_push(&world->motions[id.index], world->tick, *pose);
+    world->pushes++;
+    return true;
+}
+
+uint64_t enf_world_pushes(const EnfWorld *world) {
+    return world->pushes;
 }
 
 /* Adds where the object was one tick ago. */

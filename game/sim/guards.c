@@ -81,13 +81,17 @@ static void step_off(Game *game, SimGuard *guard) {
     guard->yaw_deg = yaw;
 }
 
-/* The object is where the body is, from this tick on. */
+/* The object is where the body is, from this tick on. Off its path, it walks from where it was. */
 static void push_pose(Game *game, SimGuard *guard) {
+    EnfPose pose = pose_of(guard);
+    if (enf_world_push(game->world, guard->object, &pose)) {
+        return;
+    }
     EnfMotion motion;
     memset(&motion, 0, sizeof motion);
     motion.kind = ENF_MOTION_FREE;
     motion.as.free.max_speed = GUARD_SPEED_MAX;
-    enf_free_push(&motion, sim_tick(game), pose_of(guard));
+    enf_free_push(&motion, sim_tick(game), pose);
     enf_world_set_motion(game->world, guard->object, &motion);
 }
 

@@ -106,6 +106,51 @@ static void boxes_hold_the_tick_before(void **state) {
     enf_moving_rooms_destroy(&moving);
 }
 
+/* A walker that is pushed from tick to tick: blended from where it was; nobody is told while it keeps its speed, and volumes made
+ * before hold it. */
+static void what_is_pushed_walks(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(3);
+    EnfMovingRooms moving;
+    create(&moving, &rng);
+    EnfWorld *world = moving.world;
+    EnfObjectDef def = enf_object_def_default();
+    def.motion.kind = ENF_MOTION_FREE;
+    def.motion.as.free.pose = enf_pose_identity();
+    def.motion.as.free.pose.position = enf_v3(7.0, 1.0, 7.0);
+    def.motion.as.free.max_speed = 1.5;
+    EnfObjectId id = enf_world_add(world, &def, NULL);
+    assert_true(id.generation != 0);
+    EnfBox3 volume = enf_box3_empty();
+    int64_t until = 0;
+    EnfPose pose = def.motion.as.free.pose, last, before = pose;
+    for (uint32_t tick = 0; tick < enf_test_rounds(2000, 200000); tick++) {
+        enf_world_advance(world, 1);
+        if (enf_world_tick(world) >= until) {
+            until = enf_world_tick(world) + 1 + enf_test_below(&rng, 100);
+            volume = enf_box3_from_f(enf_world_bound(world, id.index, until));
+        }
+        bool leaps = tick % 97 == 96;
+        double way = leaps ? 1.0 : 1.4 / ENF_TICK_RATE;
+        pose.position = enf_add(pose.position, enf_v3(enf_test_double(&rng, -way, way), 0.0, enf_test_double(&rng, -way, way)));
+        pose.position.x = pose.position.x < 1.0 ? 1.0 : pose.position.x;
+        assert_true(enf_world_push(world, id, &pose));
+        assert_true(enf_world_last_pose(world, id.index, &last));
+        assert_memory_equal(&last, &before, sizeof last);
+        if (has_changed(world, id.index)) {
+            assert_true(leaps); /* a leap may also be a short one */
+            volume = enf_box3_from_f(enf_world_bound(world, id.index, until));
+        }
+        EnfBox3 box = enf_box3_from_f(enf_world_box(world, id.index));
+        assert_true(enf_box3_contains(volume, box.min) && enf_box3_contains(volume, box.max));
+        before = pose;
+    }
+    enf_world_remove(world, id);
+    assert_false(enf_world_push(world, id, &pose));
+    assert_false(enf_world_push(world, enf_world_object(world, 0), &pose)); /* a door */
+    enf_moving_rooms_destroy(&moving);
+}
+
 /* ---- volumes ---------------------------------------------------------------------------------------------------- */
 
 /* Stands, walks to and fro, or jumps. */
@@ -162,6 +207,7 @@ static void drawn_sets_are_those_of_testing_all(void **state) {
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(boxes_hold_the_tick_before),
+    cmocka_unit_test(what_is_pushed_walks),
     cmocka_unit_test(drawn_sets_are_those_of_testing_all),
 };
 

@@ -89,6 +89,7 @@ typedef struct EnfSwingMotion {
 /** Anything of which only a largest speed is known; the caller pushes poses (enf_free_push). */
 typedef struct EnfFreeMotion {
     EnfPose pose;
+    EnfPose last;                                   /**< where it was before the tick of the last push (enf_free_push) */
     int64_t push_tick;                              /**< when `pose` was true */
     double max_speed;                               /**< metres a second, of any point of the object, turning included */
     EnfPose (*ask)(const void *user, int64_t tick); /**< where it is now (a simulation, a server), or NULL: it is pushed. With
@@ -141,7 +142,7 @@ EnfBox3 enf_motion_bound(const EnfMotion *motion, const EnfBox3 *local, int64_t 
 void enf_swing_set(EnfMotion *motion, int64_t tick, double target);
 /** Where a hinge or slide is at `tick`: radians or metres. */
 double enf_swing_position(const EnfMotion *motion, int64_t tick);
-/** A free object is at `pose` at `tick`. */
+/** A free object is at `pose` at `tick`; where it was before is kept as `last`. */
 void enf_free_push(EnfMotion *motion, int64_t tick, EnfPose pose);
 
 /** A smooth path through points (Catmull–Rom) as a cubic track: writes 9 floats a key into `values` (in-tangent, point,
@@ -190,6 +191,12 @@ bool enf_world_remove(EnfWorld *world, EnfObjectId id);
 bool enf_world_alive(const EnfWorld *world, EnfObjectId id);
 /** Teleports or re-parameterises: the object moves by `motion` from this tick on. */
 bool enf_world_set_motion(EnfWorld *world, EnfObjectId id, const EnfMotion *motion);
+/** A FREE object (that is not asked) has walked to `pose`, where it is in this tick: as it walks within its largest speed, nobody need
+ *  be told, and volumes made before hold it; if it was faster, that is a change. With trails it is blended from where it was, where
+ *  enf_world_set_motion would set it down. False if it is not alive, or not FREE. */
+bool enf_world_push(EnfWorld *world, EnfObjectId id, const EnfPose *pose);
+/** Pushes since the world was made: with its tick and its changes, all that poses depend on. */
+uint64_t enf_world_pushes(const EnfWorld *world);
 /** Sends a door towards `target` from this tick on. */
 bool enf_world_swing(EnfWorld *world, EnfObjectId id, double target);
 
