@@ -89,9 +89,9 @@ static void test_updates_from_both_ends_are_measured(void **state) {
 
 static void test_wrong_knobs_are_refused(void **state) {
     (void)state;
-    static const char *const wrong[] = {
-        "movers --set motion=teleport", "movers --set eye=shut", "movers --set rooms=0", "movers --set colour=red", "S7000",
-        "movers --set movers"};
+    static const char *const wrong[] = {"movers --set motion=teleport", "movers --set eye=shut",   "movers --set rooms=0",
+                                        "movers --set policy=fastest",  "movers --set colour=red", "S7000",
+                                        "movers --set movers"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char *text = NULL;
         if (run(wrong[i], &text) == 0) {

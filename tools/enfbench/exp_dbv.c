@@ -63,8 +63,14 @@ bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
     def->motion = (MoversMotion)motion;
     def->eye = (MoversEye)eye;
     def->visible = def->visible > def->movers ? def->movers : def->visible;
-    const char *policy = bench_knob_text(knobs, "policy", NULL);
-    if (policy != NULL) {
+    const char *policy = bench_knob_text(knobs, "policy", "all");
+    if (strcmp(policy, "all") != 0) {
+        if (!bench_movers_known(policy)) {
+            fprintf(stderr,
+                    "enfbench: policy=%s: techniques are expected, separated by commas: zbuffer, naive, lca, " EVERY "\n",
+                    policy);
+            return false;
+        }
         snprintf(def->techniques, sizeof def->techniques, "%s", policy);
     }
     return true;

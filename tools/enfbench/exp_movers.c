@@ -249,6 +249,18 @@ static bool is_chosen(const char *list, const char *name) {
     return false;
 }
 
+bool bench_movers_known(const char *list) {
+    size_t known = 0;
+    for (uint32_t t = 0; t < TECHNIQUES; t++) {
+        known += is_chosen(list, techniques[t].name) ? 1U : 0U;
+    }
+    size_t words = 1;
+    for (const char *at = list; *at != '\0'; at++) {
+        words += *at == ',' ? 1U : 0U;
+    }
+    return known == words;
+}
+
 static bool run_frames(BenchRun *run, const MoversScene *scene, Runner *runners, uint32_t count) {
     MoversWindows windows = {NULL, 0, 0};
     bool ok = true;

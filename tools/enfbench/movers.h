@@ -111,6 +111,8 @@ const uint32_t *bench_plain_frame(Plain *plain, const EnfView *view, int64_t tic
 /** Knobs that every experiment on movers has, over what `def` says. False after a message. */
 bool bench_movers_knobs(BenchRun *run, MoversDef *def);
 MoversDef bench_movers_default(void);
+/** Are these, separated by commas, names of techniques, each once? */
+bool bench_movers_known(const char *list);
 /** Runs the techniques of `def` side by side and adds a row each. */
 bool bench_movers_case(BenchRun *run, const char *experiment, const char *scene_name, const MoversDef *def);
 
