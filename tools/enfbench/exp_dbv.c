@@ -102,8 +102,9 @@ bool bench_million(BenchRun *run) {
         MoversDef def = bench_movers_default();
         def.rooms = 10000;
         def.movers = 1000000;
-        def.check = 400;
-        def.frames = 1200;
+        def.check = 450;
+        def.frames = 900;
+        def.budget = 6.0;
         def.motion = (MoversMotion)motion;
         snprintf(def.techniques, sizeof def.techniques, "update-all,flat,sweep,plain,maximal,reach");
         ok = one(run, "million", names[motion], def);
@@ -113,8 +114,9 @@ bool bench_million(BenchRun *run) {
         def.rooms = 10000;
         def.movers = movers;
         def.visible = 1000;
-        def.check = 400;
-        def.frames = 1200;
+        def.check = 450;
+        def.frames = 900;
+        def.budget = 6.0;
         def.motion = MOVERS_LINEAR;
         snprintf(def.techniques, sizeof def.techniques, "flat,maximal,reach");
         ok = one(run, "million", "hidden", def);
