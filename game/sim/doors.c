@@ -149,7 +149,7 @@ static bool all_shut(const Game *game, uint32_t portal) {
 
 static double position_of(const Game *game, EnfObjectId id) {
     const EnfMotion *motion = enf_world_motion(game->world, id.index);
-    return enf_swing_position(motion, sim_tick(game));
+    return enf_swing_position(motion, sim_world_tick(game));
 }
 
 void sim_doors_step(Game *game) {
@@ -240,7 +240,7 @@ void sim_lifts_step(Game *game) {
     for (uint32_t i = 0; i < game->lift_count; i++) {
         SimLift *lift = &game->lifts[i];
         const EnfMotion *motion = enf_world_motion(game->world, lift->object.index);
-        if (lift->moving && enf_swing_position(motion, sim_tick(game)) == motion->as.swing.target) {
+        if (lift->moving && enf_swing_position(motion, sim_world_tick(game)) == motion->as.swing.target) {
             lift->moving = 0;
             sim_sound(game, GAME_SOUND_LIFT_STOPS, enf_world_pose(game->world, lift->object.index).position, 0.6);
         }

@@ -25,7 +25,17 @@ const char *game_sound_file(GameSoundKind kind) {
 /* ---- small things ------------------------------------------------------------------------------------------------- */
 
 int64_t sim_tick(const Game *game) {
+    return enf_world_tick(game->world) - game->begin;
+}
+
+int64_t sim_world_tick(const Game *game) {
     return enf_world_tick(game->world);
+}
+
+uint32_t sim_feet_cell(const Game *game, const EnfCharacter *body) {
+    EnfVec3 feet = enf_add(body->position, enf_v3(0.0, 0.35, 0.0));
+    return body->cell == ENF_NONE ? enf_map_locate(game->map, feet)
+                                  : enf_map_track(game->map, body->cell, enf_character_eye(body), feet);
 }
 
 /* xorshift64*, Vigna 2016. */
@@ -120,6 +130,7 @@ static void find_exit(Game *game) {
     X(lifts, game->mover_room)                                                                                                 \
     X(buttons, game->mover_room)                                                                                               \
     X(items, game->mover_room)                                                                                                 \
+    X(item_objects, game->mover_room)                                                                                          \
     X(guards, game->mover_room)                                                                                                \
     X(guard_views, game->mover_room)                                                                                           \
     X(gates, game->map->portals_count)                                                                                         \
@@ -216,14 +227,14 @@ void game_destroy(Game *game) {
 
 /* Every mover as the map has it, its time 0 now. What was carried away is added anew. */
 static void put_back(Game *game) {
-    int64_t tick = sim_tick(game);
+    int64_t tick = sim_world_tick(game);
     for (uint32_t i = 0; i < game->item_count; i++) {
         SimItem *item = &game->items[i];
         if (item->state == SIM_ITEM_LIES) {
-            enf_world_remove(game->world, item->object);
+            enf_world_remove(game->world, game->item_objects[i]);
         }
         EnfObjectDef def = enf_mover_def(game->map, item->mover);
-        item->object = enf_world_add(game->world, &def, NULL);
+        game->item_objects[i] = enf_world_add(game->world, &def, NULL);
     }
     for (uint32_t i = 0; i < game->map->movers_count; i++) {
         if (game->map->movers[i].flags & ENF_MOVER_CARRY) {
@@ -239,6 +250,7 @@ static void put_back(Game *game) {
 
 void game_restart(Game *game) {
     put_back(game);
+    game->begin = sim_world_tick(game);
     enf_collider_reset(game->collider);
     start(game);
 }
@@ -286,15 +298,18 @@ static uint64_t portals_hash(const Game *game) {
     return hash;
 }
 
-/* The places of everything in the world at this tick. */
+/* The places of everything in the world at this tick. Only items come and go, so all else has the index of its mover. */
 static uint64_t objects_hash(const Game *game) {
     uint64_t hash = ENF_HASH_START;
-    uint32_t limit = enf_world_object_limit(game->world);
-    for (uint32_t i = 0; i < limit; i++) {
-        EnfObjectId id = enf_world_object(game->world, i);
-        hash = enf_hash64(hash, &id, sizeof id);
-        if (id.generation) {
+    for (uint32_t i = 0; i < game->map->movers_count; i++) {
+        if (!(game->map->movers[i].flags & ENF_MOVER_CARRY)) {
             EnfPose pose = enf_world_pose(game->world, i);
+            hash = enf_hash64(hash, &pose, sizeof pose);
+        }
+    }
+    for (uint32_t i = 0; i < game->item_count; i++) {
+        if (game->items[i].state == SIM_ITEM_LIES) {
+            EnfPose pose = enf_world_pose(game->world, game->item_objects[i].index);
             hash = enf_hash64(hash, &pose, sizeof pose);
         }
     }

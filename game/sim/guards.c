@@ -91,7 +91,7 @@ static void push_pose(Game *game, SimGuard *guard) {
     memset(&motion, 0, sizeof motion);
     motion.kind = ENF_MOTION_FREE;
     motion.as.free.max_speed = GUARD_SPEED_MAX;
-    enf_free_push(&motion, sim_tick(game), pose);
+    enf_free_push(&motion, sim_world_tick(game), pose);
     enf_world_set_motion(game->world, guard->object, &motion);
 }
 
@@ -117,7 +117,7 @@ static int64_t nearest_of_round(const Game *game, const EnfMotion *motion, EnfVe
 static EnfMotion round_motion(const Game *game, const SimGuard *guard) {
     EnfMotion motion = enf_mover_def(game->map, guard->mover).motion;
     if (motion.kind == ENF_MOTION_PATH) {
-        motion.as.path.start_tick += guard->start;
+        motion.as.path.start_tick += game->begin + guard->start;
     }
     return motion;
 }
@@ -129,8 +129,8 @@ static void resume(Game *game, SimGuard *guard) {
         EnfVec3 place;
         int64_t at = nearest_of_round(game, &motion, guard->body.position, &place);
         int64_t begin = motion.as.path.start_tick - guard->start;
-        guard->start = sim_tick(game) - at - begin;
-        motion.as.path.start_tick = guard->start + begin;
+        motion.as.path.start_tick = sim_world_tick(game) - at;
+        guard->start = motion.as.path.start_tick - begin;
     }
     enf_world_set_motion(game->world, guard->object, &motion);
     guard->mood = GAME_GUARD_ROUND;
@@ -155,7 +155,8 @@ static void turn_to(SimGuard *guard, EnfVec3 to) {
 static bool go(Game *game, SimGuard *guard, EnfVec3 to, uint32_t to_cell, double speed) {
     int64_t tick = sim_tick(game);
     if (guard->route_count == 0 || tick - guard->route_at >= ROUTE_EVERY) {
-        guard->route_count = sim_route(game, guard->body.position, guard->body.cell, to, to_cell, guard->route);
+        guard->route_count = sim_route(game, guard->body.position, sim_feet_cell(game, &guard->body), to, to_cell,
+                                       guard->route);
         guard->route_at = tick;
         if (guard->route_count == 0) {
             guard->route[0] = to;
@@ -285,7 +286,7 @@ static void return_home(Game *game, SimGuard *guard) {
 
 static void act(Game *game, SimGuard *guard) {
     int64_t tick = sim_tick(game);
-    uint32_t cell = game->player.body.cell;
+    uint32_t cell = sim_feet_cell(game, &game->player.body);
     switch ((GameGuardMood)guard->mood) {
     case GAME_GUARD_ROUND:
         follow_pose(game, guard);
@@ -331,7 +332,7 @@ static void act(Game *game, SimGuard *guard) {
 static void catch_player(Game *game, const SimGuard *guard) {
     EnfVec3 way = enf_sub(game->player.body.position, guard->body.position);
     bool near = sqrt(way.x * way.x + way.z * way.z) < CATCH_DISTANCE && fabs(way.y) < 1.2;
-    if (near && guard->mood == GAME_GUARD_CHASES && game->score.phase == GAME_PLAYING) {
+    if (near && guard->sees && guard->mood == GAME_GUARD_CHASES && game->score.phase == GAME_PLAYING) {
         game->score.phase = GAME_LOST;
         sim_sound(game, GAME_SOUND_LOST, game->player.body.position, 1.0);
         sim_say(game, "Caught");

@@ -11,17 +11,18 @@ static const char *extras_of(const Game *game, uint32_t mover) {
 
 void sim_items_start(Game *game) {
     bool again = game->item_count > 0; /* a restart: the objects are there, under their ids */
-    game->item_count = 0;
+    uint32_t count = 0;
     for (uint32_t i = 0; i < game->map->movers_count; i++) {
         if (!(game->map->movers[i].flags & ENF_MOVER_CARRY)) {
             continue;
         }
-        SimItem *item = &game->items[game->item_count++];
+        SimItem *item = &game->items[count];
         const EnfEntity *entity = &game->map->entities[game->map->movers[i].entity];
         char key[SIM_KEY_SIZE];
-        EnfObjectId object = again ? item->object : enf_world_object(game->world, i);
+        game->item_objects[count] = again ? game->item_objects[count] : enf_world_object(game->world, i);
+        /* Things to take are no obstacles: what is laid down again would have to be one under another index. */
+        enf_collider_set_solid(game->collider, game->item_objects[count].index, false);
         memset(item, 0, sizeof *item);
-        item->object = object;
         item->mover = i;
         item->is_key = strcmp(enf_map_string(game->map, entity->classname), "item_key") == 0;
         sim_extra(extras_of(game, i), "key", key, sizeof key);
@@ -29,7 +30,9 @@ void sim_items_start(Game *game) {
         double value = sim_extra_number(extras_of(game, i), "value", 1.0);
         item->value = value > 0.0 && value < 1e6 ? (uint32_t)value : 0;
         item->at = enf_v3(entity->translation[0], entity->translation[1], entity->translation[2]);
+        count++;
     }
+    game->item_count = count;
 }
 
 bool sim_has_key(const Game *game, uint64_t key) {
@@ -66,8 +69,7 @@ static uint32_t item_ahead(const Game *game, EnfVec3 eye, EnfVec3 look) {
 static void take(Game *game, uint32_t index) {
     SimItem *item = &game->items[index];
     char title[GAME_TEXT_SIZE - 16], text[GAME_TEXT_SIZE];
-    enf_world_remove(game->world, item->object);
-    enf_collider_set_solid(game->collider, item->object.index, false);
+    enf_world_remove(game->world, game->item_objects[index]);
     item->state = SIM_ITEM_CARRIED;
     title_of(game, item, title);
     snprintf(text, sizeof text, "You took %s", title);
@@ -155,7 +157,7 @@ void sim_drop(Game *game) {
         EnfVec3 ahead = sim_look((double)game->player.yaw / ENF_INPUT_DEGREE, 0.0);
         item->at = enf_add(game->player.body.position, enf_add(enf_scale(ahead, 0.35), enf_v3(0.0, 0.02, 0.0)));
         def.motion.as.still.position = item->at;
-        item->object = enf_world_add(game->world, &def, NULL);
+        game->item_objects[i] = enf_world_add(game->world, &def, NULL);
         item->state = SIM_ITEM_LIES;
         sim_sound(game, GAME_SOUND_DROP, item->at, 0.5);
         sim_guards_hear(game, item->at, 8.0);

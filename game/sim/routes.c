@@ -5,9 +5,11 @@
 
 /* Metres that a shut door adds to a sound's way. */
 #define SHUT_DOOR 6.0
-/* A doorway is walked through if it is this high, and its sill no higher than a step above its floors. */
+/* A doorway is walked through if it is this high and wide, with a floor before and behind it. */
 #define WALK_HEIGHT 1.6
 #define WALK_WIDTH 0.6
+/* Metres before and behind a doorway at which a way on foot passes. */
+#define BESIDE_GATE 0.55
 
 /* ---- doorways ------------------------------------------------------------------------------------------------------ */
 
@@ -28,16 +30,102 @@ static SimGate make_gate(const EnfMap *map, uint32_t index) {
     gate.middle = enf_scale(sum, 1.0 / (double)portal->vertex_count);
     gate.foot = enf_v3(gate.middle.x, box.min.y, gate.middle.z);
     EnfVec3 size = enf_sub(box.max, box.min);
-    double floor = map->cells[portal->source].origin[1] + (double)map->cells[portal->source].min[1];
     bool upright = size.y >= WALK_HEIGHT && sqrt(size.x * size.x + size.z * size.z) >= WALK_WIDTH;
-    bool low = box.min.y - floor < 0.6 || portal->vertex_count > 8;
-    gate.walkable = portal->transform == ENF_NONE && upright && low;
+    gate.walkable = upright;
     return gate;
+}
+
+/* Is there a floor to stand on? An opening above the floor of a hall is looked through, not walked through. */
+static bool has_floor(const Game *game, EnfVec3 at) {
+    const EnfCapsule legs = {0.2, 1.0};
+    EnfSweepHit hit;
+    return enf_collide_sweep(game->collider, &legs, enf_add(at, enf_v3(0.0, 0.5, 0.0)), enf_v3(0.0, -1.1, 0.0), &hit) &&
+           hit.face.y > 0.7;
+}
+
+/* Does a mover that never rests stand in this doorway at every moment, as a revolving door does? Nobody is sent through. */
+static bool is_barred(const Game *game, EnfVec3 foot) {
+    enum { MOMENTS = 8 };
+    EnfVec3 waist = enf_add(foot, enf_v3(0.0, 1.0, 0.0));
+    for (uint32_t i = 0; i < game->map->movers_count; i++) {
+        const EnfMover *mover = &game->map->movers[i];
+        if (mover->kind != ENF_MOVER_PATH || !(mover->flags & ENF_MOVER_SOLID)) {
+            continue;
+        }
+        EnfObjectDef def = enf_mover_def(game->map, i);
+        bool always = true;
+        for (int64_t k = 0; k < MOMENTS && always; k++) {
+            int64_t tick = k * (int64_t)def.motion.as.path.period_ticks / MOMENTS;
+            always = enf_box3_contains(enf_motion_bound(&def.motion, &def.local, tick, tick), waist);
+        }
+        if (always) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Is (x, z) within the outline of a portal, seen from above? (Even and odd crossings.) */
+static bool within(const EnfMap *map, const EnfPortal *portal, double x, double z) {
+    const EnfVec3f *p = &map->portal_vertices[portal->vertex_first];
+    const double *o = map->cells[portal->source].origin;
+    bool in = false;
+    for (uint32_t i = 0, j = portal->vertex_count - 1; i < portal->vertex_count; j = i++) {
+        double xi = o[0] + (double)p[i].x, zi = o[2] + (double)p[i].z, xj = o[0] + (double)p[j].x, zj = o[2] + (double)p[j].z;
+        in = (zi > z) != (zj > z) && x < xi + (xj - xi) * (z - zi) / (zj - zi) ? !in : in;
+    }
+    return in;
+}
+
+/* An opening in a floor is walked through where stairs come up in it: the highest place to stand in its outline, below its plane. */
+static bool find_stair(const Game *game, uint32_t index, SimGate *gate) {
+    enum { PLACES = 24 };
+    const EnfPortal *portal = &game->map->portals[index];
+    const EnfCapsule legs = {0.2, 1.0};
+    EnfBox3 box = enf_box3_empty();
+    for (uint32_t i = 0; i < portal->vertex_count; i++) {
+        box = enf_box3_add(box, enf_v3_from_f(game->map->portal_vertices[portal->vertex_first + i]));
+    }
+    const double *o = game->map->cells[portal->source].origin;
+    double best = -0.9, y = gate->middle.y; /* metres from the plane: less than a floor's thickness and two steps */
+    bool found = false;
+    for (uint32_t k = 0; k < PLACES * PLACES; k++) {
+        double s = ((double)(k % PLACES) + 0.5) / PLACES, t = ((double)(k / PLACES) + 0.5) / PLACES;
+        EnfVec3 at = enf_v3(o[0] + box.min.x + s * (box.max.x - box.min.x), y + 0.3,
+                            o[2] + box.min.z + t * (box.max.z - box.min.z));
+        EnfSweepHit hit;
+        if (!within(game->map, portal, at.x, at.z) ||
+            !enf_collide_sweep(game->collider, &legs, at, enf_v3(0.0, -1.4, 0.0), &hit) || hit.face.y <= 0.7) {
+            continue;
+        }
+        double rise = at.y - 1.4 * hit.t - y;
+        if (rise > best + 1e-3 && rise < 0.1 && hit.t > 0.0) {
+            best = rise;
+            gate->foot = enf_v3(at.x, y + rise, at.z);
+            found = true;
+        }
+    }
+    return found;
+}
+
+/* Does a body get through, on foot? Settles where its feet pass. */
+static bool is_walkable(const Game *game, uint32_t index, SimGate *gate) {
+    const EnfPortalState *state = &game->portals.states[index];
+    if (game->map->portals[index].transform != ENF_NONE) {
+        return false;
+    }
+    if (fabs(state->normal.y) > 0.7) {
+        return find_stair(game, index, gate);
+    }
+    EnfVec3 step = enf_scale(enf_normalize(enf_v3(state->normal.x, 0.0, state->normal.z)), BESIDE_GATE);
+    return gate->walkable && has_floor(game, enf_add(gate->foot, step)) && has_floor(game, enf_sub(gate->foot, step)) &&
+           !is_barred(game, gate->foot);
 }
 
 bool sim_gates_create(Game *game) {
     for (uint32_t i = 0; i < game->map->portals_count; i++) {
         game->gates[i] = make_gate(game->map, i);
+        game->gates[i].walkable = is_walkable(game, i, &game->gates[i]);
     }
     return true;
 }
@@ -198,8 +286,10 @@ uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uin
     while (count-- > 0) {
         const EnfPortalState *state = &game->portals.states[gates[count]];
         EnfVec3 flat = enf_v3(state->normal.x, 0.0, state->normal.z), foot = game->gates[gates[count]].foot;
-        EnfVec3 step = enf_scale(enf_normalize(flat), 0.55);
-        out[made++] = enf_sub(foot, step);
+        EnfVec3 step = enf_scale(enf_normalize(flat), fabs(state->normal.y) > 0.7 ? 0.0 : BESIDE_GATE);
+        if (enf_dot(step, step) > 0.0) { /* on stairs through a floor, one point is enough */
+            out[made++] = enf_sub(foot, step);
+        }
         out[made++] = enf_add(foot, step);
     }
     out[made++] = to;

@@ -45,7 +45,6 @@ typedef struct SimButton {
 
 typedef enum SimItemState { SIM_ITEM_LIES, SIM_ITEM_CARRIED, SIM_ITEM_OUT } SimItemState;
 typedef struct SimItem {
-    EnfObjectId object;
     uint32_t mover, state, value, is_key;
     uint64_t key; /**< hash of the name of what it opens; of a key */
     EnfVec3 at;   /**< where it lies */
@@ -109,6 +108,9 @@ struct Game {
     SimItem *items;
     SimGuard *guards;
     uint32_t door_count, lift_count, button_count, item_count, guard_count;
+    EnfObjectId
+        *item_objects; /**< one an item: what it is in the world while it lies. Not hashed: ids are of this run of the world */
+    int64_t begin;     /**< the world's tick at the start of this game */
     uint32_t mover_room; /**< allocated of each of the five above */
     SimScore score;
     uint64_t random;
@@ -133,7 +135,12 @@ uint64_t sim_name(const char *text);
 /* ---- game.c --------------------------------------------------------------------------------------------------------- */
 
 uint64_t sim_random(Game *game);
+/** Ticks since the start of this game: what every time in the state counts, so that a game started anew is bit for bit the first. */
 int64_t sim_tick(const Game *game);
+/** The same moment as motions and the world count it. */
+int64_t sim_world_tick(const Game *game);
+/** The cell of a body's feet, which on stairs is not that of its eye. */
+uint32_t sim_feet_cell(const Game *game, const EnfCharacter *body);
 void sim_say(Game *game, const char *text);
 void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, double loudness);
 /** Degrees as the player looks: a unit vector. */

@@ -1,0 +1,203 @@
+/* A bot on its way: the portal graph's route from doorway to doorway, footholds from one to the next, doors opened where they bar it. */
+#include "sim/bot_internal.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TRIP_TICKS = 240 * ENF_TICK_RATE, STILL_TICKS = 45, REST_TICKS = 30, TRIES = 24 };
+/* Degrees that it turns in a tick, at most; and that count as looking there. */
+#define TURN_RATE 7.0
+#define TURN_NEAR 1.0
+/* Metres: a foothold is passed; a point of the route is passed; how far ahead a door is opened. */
+#define FOOT_NEAR 0.15
+#define GATE_NEAR 0.4
+#define DOOR_AHEAD 2.2
+
+static double flat(EnfVec3 a, EnfVec3 b) {
+    double x = a.x - b.x, z = a.z - b.z;
+    return sqrt(x * x + z * z);
+}
+
+static int32_t units(double degrees) {
+    double most = fmin(fmax(degrees, -TURN_RATE), TURN_RATE);
+    return (int32_t)floor(most * ENF_INPUT_DEGREE + 0.5);
+}
+
+bool bot_look(const GameBot *bot, EnfVec3 at, EnfInput *input) {
+    const SimPlayer *player = &bot->game->player;
+    EnfVec3 way = enf_sub(at, enf_character_eye(&player->body));
+    double away = sqrt(way.x * way.x + way.z * way.z);
+    double yaw = away > 0.05 ? enf_atan2(-way.x, -way.z) * (180.0 / ENF_PI) - (double)player->yaw / ENF_INPUT_DEGREE : 0.0;
+    double pitch = enf_atan2(way.y, away) * (180.0 / ENF_PI) - (double)player->pitch / ENF_INPUT_DEGREE;
+    yaw -= 360.0 * floor(yaw / 360.0 + 0.5);
+    input->yaw = units(yaw);
+    input->pitch = units(pitch);
+    return fabs(yaw) < TURN_NEAR && fabs(pitch) < TURN_NEAR;
+}
+
+/* Full speed towards a place, wherever it looks after this tick's turn. */
+static void head_for(const GameBot *bot, EnfVec3 at, EnfInput *input) {
+    const SimPlayer *player = &bot->game->player;
+    EnfVec3 feet = player->body.position, way = enf_normalize(enf_v3(at.x - feet.x, 0.0, at.z - feet.z));
+    double yaw = ((double)player->yaw + (double)input->yaw) / ENF_INPUT_DEGREE;
+    input->forward = (int16_t)floor(enf_dot(way, sim_look(yaw, 0.0)) * 32767.0);
+    input->right = (int16_t)floor(enf_dot(way, sim_look(yaw - 90.0, 0.0)) * 32767.0);
+}
+
+void bot_trip_start(GameBot *bot, EnfVec3 to, uint32_t cell, double near, bool enter) {
+    memset(&bot->trip, 0, sizeof bot->trip);
+    bot->trip.to = to;
+    bot->trip.cell = cell;
+    bot->trip.near = near;
+    bot->trip.enter = enter;
+    bot->foot.path_count = 0;
+}
+
+/* ---- doors on the way ------------------------------------------------------------------------------------------------------ */
+
+/* Does the segment meet the box? (Slabs.) */
+static bool crosses(EnfBox3f box, EnfVec3 from, EnfVec3 to, double margin) {
+    const double a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
+    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z};
+    const double high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
+    double t0 = 0.0, t1 = 1.0;
+    for (int i = 0; i < 3; i++) {
+        double d = b[i] - a[i], l = low[i] - margin - a[i], h = high[i] + margin - a[i];
+        if (fabs(d) < 1e-9) {
+            if (l > 0.0 || h < 0.0) {
+                return false;
+            }
+            continue;
+        }
+        t0 = fmax(t0, fmin(l / d, h / d));
+        t1 = fmin(t1, fmax(l / d, h / d));
+    }
+    return t0 <= t1;
+}
+
+/* The door that stands shut between the feet and a place, near the feet; or one that is on its way. */
+static uint32_t door_before(const GameBot *bot, EnfVec3 to) {
+    Game *game = bot->game;
+    EnfVec3 feet = game->player.body.position, way = enf_sub(to, feet);
+    double away = enf_length(way);
+    EnfVec3 end = away > DOOR_AHEAD ? enf_add(feet, enf_scale(way, DOOR_AHEAD / away)) : to, up = enf_v3(0.0, 1.0, 0.0);
+    for (uint32_t i = 0; i < game->door_count; i++) {
+        const SimDoor *door = &game->doors[i];
+        if ((door->wanted == 0.0 || door->moving) &&
+            crosses(enf_world_box(game->world, door->object.index), enf_add(feet, up), enf_add(end, up), 0.2)) {
+            return i;
+        }
+    }
+    return ENF_NONE;
+}
+
+static EnfVec3 middle_of(const Game *game, uint32_t door) {
+    EnfBox3 box = enf_box3_from_f(enf_world_box(game->world, game->doors[door].object.index));
+    return enf_scale(enf_add(box.min, box.max), 0.5);
+}
+
+/* Stands, looks at the door and uses it if it is shut. False if it is locked. */
+static bool open_door(GameBot *bot, uint32_t door, EnfInput *input) {
+    BotTrip *trip = &bot->trip;
+    const SimDoor *d = &bot->game->doors[door];
+    bool aimed = bot_look(bot, middle_of(bot->game, door), input);
+    if (d->wanted != 0.0) { /* opens already */
+        trip->pressed = false;
+        return true;
+    }
+    if (trip->pressed && d->locked && !d->moving) {
+        return false;
+    }
+    trip->pressed = aimed && !trip->pressed;
+    input->buttons |= trip->pressed ? ENF_BUTTON_USE : 0;
+    return true;
+}
+
+/* ---- the way ------------------------------------------------------------------------------------------------------------------ */
+
+/* The next place of the route that is not reached yet; `*last` if it is the end. */
+static EnfVec3 next_stop(GameBot *bot, bool *last) {
+    Game *game = bot->game;
+    BotTrip *trip = &bot->trip;
+    const EnfCharacter *body = &game->player.body;
+    EnfVec3 route[SIM_ROUTE_MAX];
+    uint32_t count = sim_route(game, body->position, sim_feet_cell(game, body), trip->to, trip->cell, route), i = 0;
+    while (i + 1 < count && flat(route[i], body->position) < GATE_NEAR) {
+        i++;
+    }
+    *last = count == 0 || i + 1 == count;
+    return count == 0 ? trip->to : route[i];
+}
+
+static bool arrived(const GameBot *bot) {
+    const EnfCharacter *body = &bot->game->player.body;
+    const BotTrip *trip = &bot->trip;
+    if (trip->enter) {
+        return body->cell == trip->cell;
+    }
+    return flat(body->position, trip->to) <= trip->near && fabs(body->position.y - trip->to.y) < 2.0;
+}
+
+/* A new path of footholds; false if the bot gives up. */
+static bool plan(GameBot *bot, EnfInput *input, const char **why) {
+    BotTrip *trip = &bot->trip;
+    bool last;
+    EnfVec3 stop = next_stop(bot, &last);
+    uint32_t door = door_before(bot, stop);
+    if (door != ENF_NONE) {
+        *why = "a door on the way is locked";
+        return open_door(bot, door, input);
+    }
+    trip->at = trip->still = 0;
+    bool leads = sim_foot_find(&bot->foot, bot->game->collider, &bot->game->player.body, stop, last ? 0.8 * trip->near : 0.2);
+    bool moves = bot->foot.path_count > 2;
+    trip->tries = leads || moves ? trip->tries : trip->tries + 1;
+    trip->rest = leads ? 0 : REST_TICKS / 4;
+    *why = "no way on foot leads there";
+    return trip->tries < TRIES;
+}
+
+static void follow(GameBot *bot, EnfInput *input) {
+    BotTrip *trip = &bot->trip;
+    const SimFoot *foot = &bot->foot;
+    EnfVec3 feet = bot->game->player.body.position;
+    trip->still++;
+    for (uint32_t i = trip->at; i < foot->path_count && i < trip->at + 4; i++) {
+        if (flat(foot->path[i], feet) < FOOT_NEAR) {
+            trip->at = i + 1;
+            trip->still = 0;
+        }
+    }
+    if (trip->at >= foot->path_count || trip->still > STILL_TICKS) {
+        trip->tries += trip->still > STILL_TICKS;
+        trip->rest = trip->still > STILL_TICKS ? REST_TICKS : 0; /* somebody is in the way: let him pass */
+        bot->foot.path_count = 0;
+        return;
+    }
+    uint32_t ahead = trip->at + 5 < foot->path_count ? trip->at + 5 : foot->path_count - 1;
+    EnfVec3 eye = enf_character_eye(&bot->game->player.body), at = foot->path[ahead];
+    bot_look(bot, enf_v3(at.x, eye.y + (at.y - feet.y), at.z), input);
+    head_for(bot, foot->path[trip->at], input);
+}
+
+GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
+    BotTrip *trip = &bot->trip;
+    if (arrived(bot)) {
+        return GAME_BOT_DONE;
+    }
+    *why = "it takes too long";
+    if (++trip->ticks > TRIP_TICKS) {
+        return GAME_BOT_FAILED;
+    }
+    if (trip->rest > 0) {
+        trip->rest--;
+        return GAME_BOT_GOES_ON;
+    }
+    if (bot->foot.path_count == 0 && !plan(bot, input, why)) {
+        return GAME_BOT_FAILED;
+    }
+    if (bot->foot.path_count > 0) {
+        follow(bot, input);
+    }
+    return GAME_BOT_GOES_ON;
+}
