@@ -2,6 +2,7 @@
 
 import fittings
 import furniture
+import marvels
 import moving
 import ornaments
 from meshes import block
@@ -66,6 +67,13 @@ PLAIN = {
     "hanging_pots": fittings.hanging_pots,
     "clock_case": moving.clock_case,
     "plinth": moving.plinth,
+    "great_clock": marvels.great_clock,
+    "orrery_stand": marvels.orrery_stand,
+    "globe_stand": marvels.globe_stand,
+    "carousel_stand": marvels.carousel_stand,
+    "music_box": marvels.music_box,
+    "ship_stand": marvels.ship_stand,
+    "cage": marvels.cage,
     "post": lambda: block((0.12, 0.12, 1.2), "wood_dark"),
 }
 

@@ -3,7 +3,7 @@
 
 Rooms enough, triangles enough, a file small enough; every piece inside its room and off the walk; every portal planar,
 convex and facing out of its room; every cell closed: each edge of shell and portals, on a grid of 1/4096 m, is run
-through as often one way as the other.
+through as often one way as the other.  What moves, check_life.py looks at.
 """
 
 import csv
@@ -16,6 +16,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
+import check_life  # noqa: E402
 import plan  # noqa: E402
 from geometry import cross, depth_inside, dot, newell, scale, sub, unit  # noqa: E402
 from glb import Glb  # noqa: E402
@@ -25,8 +26,6 @@ GRID = 4096
 PLANAR = 2.0 / GRID  # corners are snapped, so an oblique portal may leave its plane by about one step of the grid
 SLACK = 0.001
 SHOULDER = 0.25
-FEWEST_MOVERS = 200
-LEAST = {"npc_guard": 10, "prop_exhibit": 8, "func_door_rotating": 40, "item_key": 3, "func_plat": 1, "func_button": 2, "trigger_exit": 1}
 MOST_BYTES, FEWEST_ROOMS, FEWEST_TRIANGLES = 12 * 1024 * 1024, 60, 300_000
 
 
@@ -40,8 +39,8 @@ def main():
     rooms = {node["name"][:-5]: i for i, node in enumerate(glb.nodes) if node["name"].endswith("-room")}
     portals = read_portals(glb, rooms)
     problems = check_sizes(glb, rooms) + check_portals(glb, rooms, portals) + check_closed(glb, rooms, portals)
-    problems += check_pieces(glb, tour)
-    problems += check_life(glb)
+    trouble, near = check_pieces(glb)
+    problems += trouble + check_way(tour, near) + check_life.check(glb, near)
     problems += check_lights(glb, rooms) + check_spawn(glb) + check_tour(tour)
     for problem in problems:
         print("FAIL:", problem)
@@ -62,27 +61,6 @@ def read_portals(glb, rooms):
             corners = [glb.to_world(i, p) for p in outline(list(glb.triangles(node["mesh"])))]
             portals.append((node["name"], source, match.group(1), corners))
     return portals
-
-
-def check_life(glb):
-    """Movers enough; every kind of thing that the game needs; every door names a portal that is there."""
-    animated = {c["target"]["node"] for a in glb.json.get("animations", ()) for c in a["channels"]}
-    classes = Counter(node.get("extras", {}).get("classname", "") for node in glb.nodes)
-    moving = sum(i in animated or re.match("(func|prop|item|npc)_", n.get("extras", {}).get("classname", "")) is not None
-                 for i, n in enumerate(glb.nodes))  # fmt: skip
-    problems = [] if moving >= FEWEST_MOVERS else [f"only {moving} things move"]
-    for kind, least in LEAST.items():
-        if classes[kind] < least:
-            problems.append(f"{classes[kind]} of {kind}, at least {least} wanted")
-    names = {node["name"] for node in glb.nodes}
-    keys = {node["extras"]["key"] for node in glb.nodes if node.get("extras", {}).get("classname") == "item_key"}
-    for node in glb.nodes:
-        extras = node.get("extras", {})
-        if extras.get("portal", node["name"]) not in names:
-            problems.append(f"{node['name']}: there is no portal {extras['portal']}")
-        if extras.get("classname", "").startswith("func_door") and extras.get("locked", "gold") not in keys:
-            problems.append(f"{node['name']}: no key opens it")
-    return problems
 
 
 def outline(triangles):
@@ -185,8 +163,8 @@ def count_edges(edges, points):
             edges[q, p] -= 1
 
 
-def check_pieces(glb, tour):
-    """Every piece stands inside its room and out of the walker's way."""
+def check_pieces(glb):
+    """Every piece stands inside its room. Also the corners of all pieces, by square metre of the plan."""
     problems, near = [], {}
     plans = {room.name: room for room in plan.rooms() if not room.section}
     wells = {end for well in WELLS for end in (well.lower, well.upper)}
@@ -202,7 +180,7 @@ def check_pieces(glb, tour):
                 break
         for x, y, z in corners:
             near.setdefault((math.floor(x), math.floor(y)), []).append((x, y, z, name))
-    return problems + check_way(tour, near)
+    return problems, near
 
 
 def pieces(glb):

@@ -1,9 +1,12 @@
 """Which theme furnishes which room, in what order: what is built in first, then what is put in."""
 
+import math
+
 import life
 import structure
 import themes
 import themes_service as service
+from geometry import lerp
 from placing import Placer
 
 THEMES = {
@@ -50,9 +53,19 @@ THEMES = {
 }
 
 
+LANES = {  # ways between doors that the recorded walk does not take and that furniture would close: corners in the plan
+    "BlueSalon": [(13.5, 15.75), (15.2, 15.5), (15.2, 11.5)],
+    "BlueBedchamber": [(13.5, 15.75), (15.3, 15.5), (15.3, 11.5)],
+    "QueensCloset": [(-29.25, 11.75), (-29.35, 13.5), (-30.75, 15.5)],
+}
+
+
 def furnish(scene, room, feet):
     """Puts everything into one room; `feet` is the walker's way, which stays free. Returns how much of it moves."""
     placer = Placer(scene, room, feet)
+    for a, b in zip(LANES.get(room.name, []), LANES.get(room.name, [])[1:]):
+        steps = int(math.dist(a, b) / 0.25) + 1
+        placer.walk += [lerp(a, b, k / steps) for k in range(steps + 1)]
     structure.build(placer)
     if room.name == "Library":
         placer.keep_free(*life.LIFT_AT, life.LIFT_SIZE / 2 + 0.9)

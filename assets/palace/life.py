@@ -4,20 +4,15 @@ thief comes for.  Written as animations and custom properties; assets/README.md 
 import math
 import random
 
+import clockwork
+import doors
 import moving
-from geometry import add, centroid, depth_inside, length, scale, snap_point, sub
-from openings import outline
+from geometry import add, centroid, depth_inside, length, scale, sub
 from placing import LIFT
-from tour import ROUTE, _passage, _via
+from tour import _passage, _via
 
 HEIGHT_OF_SWITCH = 1.2
-GROWN = 0.02  # a leaf reaches this far into jamb and floor, so that no light falls past it
 
-LOCKED = {  # rooms whose doors want a key: room -> (key, doors it has)
-    "Treasury": "gold",
-    "RelicRoom": "silver",
-    "Dungeon": "iron",
-}
 KEYS = {"gold": "KingsCloset", "silver": "Sacristy", "iron": "Kitchen"}
 EXHIBITS = [  # room, what, title, value
     ("Treasury", "crown", "the crown of the founder", 5),
@@ -30,14 +25,16 @@ EXHIBITS = [  # room, what, title, value
     ("WinterGarden", "figurine.cobalt", "the blue gardener", 2),
     ("MusicRoom", "figurine.ivory", "the ivory player", 1),
     ("ClockRoom", "casket", "the clockmaker's box", 1),
+    ("Buttery", "chalice", "the butler's cup", 2),
 ]
+SWITCHES = {"WineCellar": doors.BUTTERY}  # room -> the door that a button in it opens
 ROUNDS = """
-EntranceHall Courtyard MarbleSaloon RedSalon
+Courtyard MarbleSaloon RedSalon
 MarbleSaloon MusicRoom BlueSalon DiningRoom
 DiningRoom HuntingRoom MapCabinet
 GreenSalon AudienceChamber TapestryRoom PorcelainCabinet PortraitGallery
 CornerCabinet GuardRoom Kitchen Scullery
-Scullery ServantsHall Vestibule EntranceHall
+Scullery ServantsHall Vestibule
 GrandStaircase UpperStaircase MinstrelsGallery
 UpperKneeRoom UpperWingLobby PictureGallery WinterGarden
 HallGallery KingsBedchamber PrivyDiningRoom BlueBedchamber
@@ -50,6 +47,7 @@ CellarLobby CellarStair Undercroft WineCellar BarrelVault
 Undercroft CryptPassage Crypt
 CheeseCellar BeerCellar BarrelRampFoot BarrelRampHead ClockRoom
 """.strip().splitlines()
+ROUND_VIA = {("MarbleSaloon", "RedSalon"): (0.0, 11.5)}  # between the doors of one room, on the way to the next
 GUARD_SPEED, TURN_TIME, REST_TIME = 1.15, 0.6, 2.0
 
 CLOCK_THEMES = {"salon", "study", "hall", "dining", "library", "bedroom", "gallery", "kitchen", "servants", "guard"}
@@ -57,73 +55,6 @@ WONDER_THEMES = {"gallery", "salon", "sculpture", "orangery", "music", "marble",
 TRAIN_X, TRAIN_Y, TRAIN_HALF, TRAIN_SPEED = (-8.5, 15.0), 11.5, 0.28, 0.9
 
 LIFT_AT, LIFT_SIZE, LIFT_RISE, LIFT_REST = (11.95, 22.4), 1.5, 4.85, 0.15
-
-
-def gltf(x, y, z):
-    """A vector of Blender's axes as text in glTF's."""
-    return f"{x:g},{z:g},{-y:g}"
-
-
-# ---- doors ---------------------------------------------------------------------------------------------------------
-
-
-def tour_pairs():
-    return {frozenset(pair) for pair in zip(ROUTE, ROUTE[1:])}
-
-
-def has_doors(portal):
-    """Doors hang in openings that the recorded walk does not take, and that are no arcade."""
-    kind = portal.kind
-    if not kind or kind.sill > 0.0 or kind.width > 2.01 or "Courtyard" in (portal.source, portal.target):
-        return False
-    return frozenset((portal.source, portal.target)) not in tour_pairs()
-
-
-def leaf_outlines(kind):
-    """(hinge u, outline from the hinge, angle) of each leaf: one for narrow openings, else two."""
-    grown = [(u + math.copysign(GROWN, u) if abs(u) > 1e-6 else u, z + (GROWN if z > 1e-6 else -GROWN)) for u, z in outline(kind)]
-    half = kind.width / 2
-    if kind.width < 1.25:
-        return [(-half, [(u + half, z) for u, z in grown], 92.0)]
-    left, right = moving.half_outline(grown, True), moving.half_outline(grown, False)
-    return [(-half, [(u + half, z) for u, z in left], 88.0), (half, [(u - half, z) for u, z in right], -88.0)]
-
-
-def hang_doors(scene, portals):
-    """Every leaf as a mover; returns how many."""
-    count = 0
-    for number, portal in enumerate(portals):
-        if not has_doors(portal):
-            continue
-        normal = portal.normal
-        along = (normal[1], -normal[0])
-        turn = math.atan2(along[1], along[0])
-        lock = next((LOCKED[room] for room in (portal.source, portal.target) if room in LOCKED), None)
-        stone = portal.kind.frame == "stone_trim"
-        leaves = leaf_outlines(portal.kind)
-        for side, (hinge, shape, angle) in enumerate(leaves):
-            mesh = moving.leaf(shape, "planks" if stone else "wood_white")
-            if len(leaves) == 2 and side == 0:  # the astragal: a strip over the seam
-                top = max(z for u, z in shape if u > portal.kind.width / 2 - 0.3)
-                for y0, y1 in ((0.0, 0.014), (-moving.LEAF - 0.014, -moving.LEAF)):
-                    w = portal.kind.width / 2
-                    mesh.append(moving.box((w - 0.03, y0, -GROWN), (w + 0.03, y1, top - GROWN), "wood_light"))
-            # Its middle lies in the opening's plane: what closes a portal stands before it on either side.
-            at = add(add(portal.centre[:2], scale(along, hinge)), scale(normal[:2], moving.LEAF / 2))
-            extras = {
-                "classname": "func_door_rotating",
-                "angle": angle,
-                "speed": 100.0,
-                "auto_close": 4.0,
-                "targetname": f"door_{number}",
-                "portal": f"{portal.target}*{number}-portal",
-            }
-            if lock:
-                extras["locked"] = lock
-            name = f"door_{number}_{side}"
-            scene.child(portal.source, name, scene.mesh(name, mesh), snap_point((*at, portal.centre[2])), turn, extras)
-            count += 1
-    return count
 
 
 # ---- guards --------------------------------------------------------------------------------------------------------
@@ -137,7 +68,9 @@ def round_points(rooms, portals, names):
             doors.setdefault(frozenset((portal.source, portal.target)), portal)
     points = []
     for here, there in zip(names, names[1:]):
-        points += [(*p, rooms[here].floor) for p in _via(here, 0)] if here != names[0] else []
+        if here != names[0]:
+            via = [ROUND_VIA[here, there]] if (here, there) in ROUND_VIA else _via(here, 0)
+            points += [(*p, rooms[here].floor) for p in via]
         points += _passage(here, there, doors, rooms)
     return [p for p, q in zip(points, points[1:] + [None]) if q is None or length(sub(p, q)) > 0.05]
 
@@ -247,6 +180,9 @@ def enliven(placer):
     for key, name in KEYS.items():
         if name == room.name:
             count += exhibit(placer, "key", {"classname": "item_key", "key": key, "title": f"the {key} key"})
+    if room.name in SWITCHES:
+        count += door_switch(placer, SWITCHES[room.name])
+    count += clockwork.wind_up(placer)
     if room.theme in CLOCK_THEMES:
         count += clock(placer, dice.uniform(0.0, 43200.0))
     if room.theme in WONDER_THEMES and dice.random() < 0.75:
@@ -264,6 +200,17 @@ def exhibit(placer, what, extras):
     build = (lambda: moving.figurine(material)) if material else getattr(moving, kind)
     place = (*at[:2], placer.room.floor + 1.0 + LIFT)
     scene.child(room, f"{room}_{kind}_exhibit", scene.shared(f"treasure.{what}", build), place, 0.4, extras | {"solid": 0})
+    return 1
+
+
+def door_switch(placer, target):
+    """A button on a post that opens a door elsewhere."""
+    at = placer.place("post")
+    if not at:
+        return 0
+    place = (at[0], at[1] + 0.061, placer.room.floor + HEIGHT_OF_SWITCH - 0.15)
+    extras = {"classname": "func_button", "target": target, "solid": 0}
+    placer.scene.child(placer.room.name, f"{placer.room.name}_switch", placer.scene.shared("switch", moving.switch), place, 0.0, extras)
     return 1
 
 
@@ -368,7 +315,7 @@ def lift(scene, rooms):
 
 def populate(scene, rooms, portals):
     """Everything that belongs to no single room; returns how many movers."""
-    count = hang_doors(scene, portals) + post_guards(scene, rooms, portals) + lay_train(scene) + lift(scene, rooms)
+    count = doors.hang(scene, rooms, portals) + post_guards(scene, rooms, portals) + lay_train(scene) + lift(scene, rooms)
     count += revolving_doors(scene, portals)
     count += release(
         scene,
