@@ -130,6 +130,9 @@ static GameBotNews travel(GameBot *bot, const BotCommand *command, EnfInput *inp
     if (bot->tick == 0) {
         set_out(bot, command);
     }
+    if (bot->game->score.phase != GAME_PLAYING) {
+        return GAME_BOT_DONE; /* nobody walks any more: what was to come of it is for `expect` to say */
+    }
     if (bot->phase == 0) {
         GameBotNews news = bot_trip_step(bot, input, why);
         if (news != GAME_BOT_DONE) {

@@ -71,10 +71,14 @@ static uint32_t *slot_of(SimFoot *foot, int32_t x, int32_t z, double y) {
 static bool walk(EnfCollider *collider, const EnfCharacterDef *def, EnfVec3 from, EnfVec3 way, EnfVec3 *to) {
     EnfCapsule capsule = {def->radius, def->height};
     EnfSweepHit hit;
-    enf_collide_sweep(collider, &capsule, from, enf_v3(0.0, def->step, 0.0), &hit);
-    EnfVec3 up = enf_add(from, enf_v3(0.0, def->step * hit.t, 0.0));
-    if (enf_collide_sweep(collider, &capsule, up, way, &hit)) {
-        return false;
+    EnfVec3 up = from;
+    if (enf_collide_sweep(collider, &capsule, from, way,
+                          &hit)) { /* level first: under a low arch there is no room for a step */
+        enf_collide_sweep(collider, &capsule, from, enf_v3(0.0, def->step, 0.0), &hit);
+        up = enf_add(from, enf_v3(0.0, def->step * hit.t, 0.0));
+        if (enf_collide_sweep(collider, &capsule, up, way, &hit)) {
+            return false;
+        }
     }
     EnfVec3 over = enf_add(up, way), down = enf_v3(0.0, from.y - up.y - STEP_DOWN, 0.0);
     if (!enf_collide_sweep(collider, &capsule, over, down, &hit) || hit.face.y < def->slope_cos) {

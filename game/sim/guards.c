@@ -6,12 +6,14 @@
 #include <string.h>
 
 enum { LOOK_EVERY = 4, ROUTE_EVERY = 20, WONDER_TICKS = 150, SEARCH_TICKS = 480 };
+/* Ticks from the start in which nobody is seen: one comes in by the door and looks about. */
+enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 #define EYE_HEIGHT 1.65
 #define CHASE_SPEED 3.6
 #define RETURN_SPEED 1.4
 #define CATCH_DISTANCE 0.95
 #define TURN_RATE 200.0 /* degrees a second */
-#define NOTICE_RATE 2.6 /* a second, of somebody fully seen nearby */
+#define NOTICE_RATE 1.5 /* a second, of somebody fully seen nearby */
 #define NOTICE_FADES 0.12
 /* A step up is a leap of 0.4 m in one tick: no point of a guard is faster than that and its way. */
 #define GUARD_SPEED_MAX 45.0
@@ -251,7 +253,7 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
     if ((sim_tick(game) + number) % LOOK_EVERY != 0 || game->def.peaceful) {
         return;
     }
-    double sight = sim_sight(game, guard, eye_of(guard), sim_look(guard->yaw_deg, 0.0));
+    double sight = sim_tick(game) < GRACE_TICKS ? 0.0 : sim_sight(game, guard, eye_of(guard), sim_look(guard->yaw_deg, 0.0));
     bool crouched = (game->player.body.flags & ENF_CHARACTER_CROUCHED) != 0;
     sight *= crouched ? 0.6 : 1.0;
     guard->sees = sight > 0.01;

@@ -87,8 +87,8 @@ static bool find_stair(const Game *game, uint32_t index, SimGate *gate) {
         box = enf_box3_add(box, enf_v3_from_f(game->map->portal_vertices[portal->vertex_first + i]));
     }
     const double *o = game->map->cells[portal->source].origin;
-    double best = -0.9, y = gate->middle.y; /* metres from the plane: less than a floor's thickness and two steps */
-    bool found = false;
+    double best = -HUGE_VAL, y = gate->middle.y;
+    bool low = false, lower = false; /* a step below the plane, and one below that: a rim alone is no stair */
     for (uint32_t k = 0; k < PLACES * PLACES; k++) {
         double s = ((double)(k % PLACES) + 0.5) / PLACES, t = ((double)(k / PLACES) + 0.5) / PLACES;
         EnfVec3 at = enf_v3(o[0] + box.min.x + s * (box.max.x - box.min.x), y + 0.3,
@@ -99,13 +99,14 @@ static bool find_stair(const Game *game, uint32_t index, SimGate *gate) {
             continue;
         }
         double rise = at.y - 1.4 * hit.t - y;
+        low = low || (rise < -0.1 && rise >= -0.45);
+        lower = lower || (rise < -0.45 && rise >= -0.9);
         if (rise > best + 1e-3 && rise < 0.1 && hit.t > 0.0) {
             best = rise;
             gate->foot = enf_v3(at.x, y + rise, at.z);
-            found = true;
         }
     }
-    return found;
+    return low && lower;
 }
 
 /* Does a body get through, on foot? Settles where its feet pass. */
