@@ -122,7 +122,7 @@ static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
         }
         volume->exposed_frame = index->frame;
         volume->exposure = index->exposure_count++;
-        EnfDbvExposure exposure = {object, false, enf_world_box(index->world, object)};
+        EnfDbvExposure exposure = {object, false, enf_world_seen_box(index->world, object)};
         index->exposures[volume->exposure] = exposure;
         index->counters.exposed++;
         index->counters.late += volume->expiry_tick < enf_world_tick(index->world) ? 1U : 0U;

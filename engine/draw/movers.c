@@ -111,7 +111,7 @@ static EnfAffine blend(const EnfAffine *from, const EnfAffine *to, double alpha)
     return out;
 }
 
-/* Matrices are blended, not poses: a point then lies on the chord between its two places, inside what enf_world_box holds. */
+/* Matrices are blended, not poses: a point then lies on the chord between its two places, inside what enf_world_seen_box holds. */
 static EnfAffine model_at(EnfWorld *world, uint32_t object, double alpha) {
     EnfPose pose = enf_world_pose(world, object), last;
     EnfAffine now = enf_affine_trs(pose.position, pose.rotation, pose.scale);

@@ -342,6 +342,10 @@ static EnfBox3 with_trail(EnfWorld *world, uint32_t index, EnfBox3 box) {
 }
 
 EnfBox3f enf_world_box(EnfWorld *world, uint32_t index) {
+    return enf_box3f_outward(pose_box(world, index, enf_world_pose(world, index)));
+}
+
+EnfBox3f enf_world_seen_box(EnfWorld *world, uint32_t index) {
     EnfBox3 box = pose_box(world, index, enf_world_pose(world, index));
     return enf_box3f_outward(with_trail(world, index, box));
 }

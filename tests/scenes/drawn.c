@@ -65,7 +65,7 @@ bool enf_drawn_look(EnfDrawnOracle *oracle, EnfVis *vis, const EnfPortals *porta
     oracle->drawn_count = 0;
     for (uint32_t object = 0; object < limit; object++) {
         bool alive = enf_world_object(world, object).generation != 0;
-        oracle->drawn[object] = alive && seen(oracle, map, enf_world_box(world, object));
+        oracle->drawn[object] = alive && seen(oracle, map, enf_world_seen_box(world, object));
         oracle->drawn_count += oracle->drawn[object] ? 1U : 0U;
     }
     return true;

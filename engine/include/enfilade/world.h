@@ -206,11 +206,12 @@ uint32_t enf_world_object_limit(const EnfWorld *world);
 EnfObjectId enf_world_object(const EnfWorld *world, uint32_t index);
 uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index);
 
-/** With trails, enf_world_box and enf_world_bound hold an object also where it was one tick ago, so that a picture between two
+/** With trails, enf_world_seen_box and enf_world_bound hold an object also where it was one tick ago, so that a picture between two
  *  ticks, its matrices blended, loses nothing: a blended point lies on the chord between its two places. Objects that were added,
  *  teleported, re-parameterised or sent (a door) in this tick were nowhere else: they do not smear. Off at first. Call it before an
  *  index is made over the world (enf_dbv_create). A door that comes to rest in this tick still gapes in the pictures before it: its
- *  portal is closed one tick later (PITFALLS 10). */
+ *  portal is closed one tick later (PITFALLS 10). Poses and enf_world_box know no trails: a simulation is the same with and
+ *  without. */
 void enf_world_set_trail(EnfWorld *world, bool on);
 bool enf_world_has_trail(const EnfWorld *world);
 
@@ -220,6 +221,8 @@ const EnfMotion *enf_world_motion(const EnfWorld *world, uint32_t index);
 /** Pose and world box (float, rounded outward) of a living object at the world's tick; each counts as one evaluation. */
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index);
 EnfBox3f enf_world_box(EnfWorld *world, uint32_t index);
+/** What pictures of this tick may show of it: its box, and with trails also where it was one tick ago. */
+EnfBox3f enf_world_seen_box(EnfWorld *world, uint32_t index);
 /** Where a living object was one tick ago. False, and its pose now, without trails or where it was set in this tick. */
 bool enf_world_last_pose(EnfWorld *world, uint32_t index, EnfPose *pose);
 /** A box that holds the object at every tick from now to `until` (asks a FREE one where it is, first). */
