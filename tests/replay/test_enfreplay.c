@@ -131,6 +131,20 @@ static void bad_script_is_refused_by_line(void **state) {
     EXPECT("info @/bad.enfreplay", 1, "cannot open");
 }
 
+/* A bot's script is told from a script of inputs by its first line. */
+static void bot_plays(void **state) {
+    (void)state;
+    write_text("bot.script", "enfbot 1\nwait 1\nlook by 90 0\nwalk 1 0 0.5\n");
+    EXPECT("record --map @/rooms.enfmap -s @/bot.script -o @/bot.enfreplay", 0, "playing in room_");
+    EXPECT("verify @/bot.enfreplay", 0, "ok", "playing in room_");
+    write_text("bot.script", "enfbot 1\nwait 1\ndance\n");
+    EXPECT("record --map @/rooms.enfmap -s @/bot.script -o @/lost.enfreplay", 1, "bot.script", "line 3 of the bot's script");
+    write_text("bot.script", "enfbot 1\nexpect won 1\n");
+    EXPECT("record --map @/rooms.enfmap -s @/bot.script -o @/lost.enfreplay", 1, "line 2 of the bot's script");
+    EXPECT("record --map @/rooms.enfmap --mash 1 --start gently -o @/lost.enfreplay", 1, "cannot start as \"gently\"");
+    EXPECT("info @/lost.enfreplay", 1, "cannot open");
+}
+
 /* ---- recordings ------------------------------------------------------------------------------------------------- */
 
 static void mash_is_the_same_each_time(void **state) {
@@ -267,6 +281,7 @@ static void command_line_is_checked(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup(script_becomes_input, make_folder),
     cmocka_unit_test_setup(bad_script_is_refused_by_line, make_folder),
+    cmocka_unit_test_setup(bot_plays, make_folder),
     cmocka_unit_test_setup(mash_is_the_same_each_time, make_folder),
     cmocka_unit_test_setup(pictures_change_nothing, make_folder),
     cmocka_unit_test_setup(divergence_is_named, make_folder),

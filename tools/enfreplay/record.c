@@ -12,11 +12,12 @@
 enum { MASH_TICKS = 3600, SCRIPT_BYTES_MAX = 1 << 20 };
 
 /* Where input comes from. */
-typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_MASH, SOURCE_PATH, SOURCE_REPLAY } SourceKind;
+typedef enum SourceKind { SOURCE_SCRIPT, SOURCE_BOT, SOURCE_MASH, SOURCE_PATH, SOURCE_REPLAY } SourceKind;
 typedef struct Source {
     SourceKind kind;
     uint64_t limit; /* ticks, UINT64_MAX for none */
     Script script;
+    SimBot *bot;
     Mash mash;
     Steer steer;
     EnfReplayCursor cursor;
@@ -25,8 +26,8 @@ typedef struct Source {
 
 /* ---- sources ---------------------------------------------------------------------------------------------------- */
 
-/* The input of `tick`; false at the end. */
-static bool source_next(Source *source, uint64_t tick, EnfInput *input) {
+/* The input of `tick`; false at the end, or with *result where a bot is at its wits' end. */
+static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResult *result, EnfError *error) {
     if (tick >= source->limit) {
         return false;
     }
@@ -37,6 +38,8 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input) {
             return true;
         }
         return false;
+    case SOURCE_BOT:
+        return sim_bot_next(source->bot, input, result, error);
     case SOURCE_MASH:
         *input = mash_next(&source->mash);
         return true;
@@ -55,6 +58,7 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input) {
 
 static void source_close(Source *source) {
     script_free(&source->script);
+    sim_bot_destroy(source->bot);
     steer_close(&source->steer);
 }
 
@@ -66,15 +70,20 @@ static bool parse_u64(const char *text, uint64_t *value) {
     return *text >= '0' && *text <= '9' && *end == '\0' && errno == 0;
 }
 
-static EnfResult open_script(Source *source, const char *path, EnfError *error) {
+static EnfResult open_script(Source *source, Session *session, const char *path, EnfError *error) {
     EnfFile file;
     EnfResult result = enf_file_read(&file, path, SCRIPT_BYTES_MAX, NULL, error);
     if (result != ENF_OK) {
         return result;
     }
     const char *text = (const char *)file.data;
-    source->kind = SOURCE_SCRIPT;
-    result = script_parse(&source->script, text, file.size, error);
+    if (sim_bot_is_script(text, file.size)) {
+        source->kind = SOURCE_BOT;
+        result = sim_bot_create(&source->bot, session->sim, text, file.size, error);
+    } else {
+        source->kind = SOURCE_SCRIPT;
+        result = script_parse(&source->script, text, file.size, error);
+    }
     enf_file_free(&file);
     return result == ENF_OK ? ENF_OK : enf_error_file(error, result, path);
 }
@@ -82,7 +91,7 @@ static EnfResult open_script(Source *source, const char *path, EnfError *error) 
 static EnfResult open_source(Source *source, Session *session, const Options *options, EnfError *error) {
     source->limit = options->ticks ? options->ticks : UINT64_MAX;
     if (options->script) {
-        return open_script(source, options->script, error);
+        return open_script(source, session, options->script, error);
     }
     if (options->path) {
         source->kind = SOURCE_PATH;
@@ -107,7 +116,7 @@ static EnfResult record_all(Session *session, Source *source, EnfRecorder *recor
     EnfInput input = {0, 0, 0, 0, 0};
     EnfResult result = ENF_OK;
     uint64_t total = source->kind == SOURCE_SCRIPT ? source->script.count : source->kind == SOURCE_MASH ? source->limit : 0;
-    for (uint64_t tick = 0; result == ENF_OK && source_next(source, tick, &input); tick++) {
+    for (uint64_t tick = 0; result == ENF_OK && source_next(source, tick, &input, &result, error); tick++) {
         sim_step(session->sim, &input);
         result = sim_record(session->sim, recorder, &input, error);
         progress_tick(&progress, "recording", tick, total);

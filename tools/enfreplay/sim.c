@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "sim/bot.h"
 #include "sim/record.h"
 
 struct Sim {
@@ -90,4 +91,43 @@ void sim_describe(const Sim *sim, char text[160]) {
     const char *cell = state->cell == ENF_NONE ? "no room" : enf_map_string(sim->map, sim->map->cells[state->cell].name);
     snprintf(text, 160, "%s in %.60s; carries %u, %u of %u carried out", phases[state->phase], cell, state->carried,
              state->delivered, state->wanted);
+}
+
+/* ---- bot -------------------------------------------------------------------------------------------------------- */
+
+struct SimBot {
+    GameBot *bot;
+};
+
+bool sim_bot_is_script(const char *text, size_t size) {
+    size_t length = strlen(GAME_BOT_MAGIC);
+    return size >= length && memcmp(text, GAME_BOT_MAGIC, length) == 0;
+}
+
+EnfResult sim_bot_create(SimBot **bot, Sim *sim, const char *script, size_t size, EnfError *error) {
+    *bot = enf_alloc(NULL, 1, sizeof **bot);
+    if (!*bot) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for a bot");
+    }
+    EnfResult result = game_bot_create(&(*bot)->bot, sim->game, script, size, NULL, error);
+    if (result != ENF_OK) {
+        sim_bot_destroy(*bot);
+        *bot = NULL;
+    }
+    return result;
+}
+
+void sim_bot_destroy(SimBot *bot) {
+    if (bot) {
+        game_bot_destroy(bot->bot);
+        enf_free(NULL, bot, 1, sizeof *bot);
+    }
+}
+
+bool sim_bot_next(SimBot *bot, EnfInput *input, EnfResult *result, EnfError *error) {
+    GameBotNews news = game_bot_next(bot->bot, input, error);
+    if (news == GAME_BOT_FAILED) {
+        *result = ENF_ERROR_ARGUMENT;
+    }
+    return news == GAME_BOT_GOES_ON;
 }

@@ -38,4 +38,14 @@ bool sim_is_over(const Sim *sim);
 /** How the game stands, in a few words: "playing in Rotunda-room, 2 of 6 carried out". */
 void sim_describe(const Sim *sim, char text[160]);
 
+/* ---- the game's bot --------------------------------------------------------------------------------------------- */
+
+/** Input that the game's own bot makes from a script of its language (game/sim/bot.h). */
+typedef struct SimBot SimBot;
+bool sim_bot_is_script(const char *text, size_t size);
+EnfResult sim_bot_create(SimBot **bot, Sim *sim, const char *script, size_t size, EnfError *error);
+void sim_bot_destroy(SimBot *bot);
+/** The input of the next tick; false at the end of the script, or where it cannot be followed: then *result and `error` say so. */
+bool sim_bot_next(SimBot *bot, EnfInput *input, EnfResult *result, EnfError *error);
+
 #endif
