@@ -72,9 +72,14 @@ double sim_light(const Game *game, uint32_t cell, EnfVec3 at) {
 
 /* ---- sight ------------------------------------------------------------------------------------------------------------ */
 
-/* Is the segment free of surfaces in every cell that the guard sees into? */
+/* Is the segment free of surfaces in every cell that the guard sees into, and of leaves that stand half open? */
 static bool line_is_free(const Game *game, const EnfVisSet *seen, EnfVec3 eye, EnfVec3 to) {
+    const EnfCapsule thread = {0.01, 0.02};
     EnfVec3 way = enf_sub(to, eye);
+    EnfSweepHit met;
+    if (enf_collide_sweep(game->collider, &thread, eye, way, &met) && met.t < 0.98) {
+        return false;
+    }
     for (uint32_t i = 0; i < seen->cell_count; i++) {
         EnfRayHit hit;
         if (enf_map_ray(game->map, seen->cells[i], eye, way, 0.98, &hit)) {
