@@ -40,7 +40,7 @@ def main():
     portals = read_portals(glb, rooms)
     problems = check_sizes(glb, rooms) + check_portals(glb, rooms, portals) + check_closed(glb, rooms, portals)
     trouble, near = check_pieces(glb)
-    problems += trouble + check_way(tour, near) + check_life.check(glb, near)
+    problems += trouble + check_way(tour, near) + check_life.check(glb, near, tour.with_name("river.csv"))
     problems += check_lights(glb, rooms) + check_spawn(glb) + check_tour(tour)
     for problem in problems:
         print("FAIL:", problem)

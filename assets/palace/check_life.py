@@ -1,9 +1,10 @@
 """Checks what moves in the exported palace, and that the game in it can be played to its end.  Used by check.py.
 
-Movers enough of each kind; leaves of doors cover their openings; guards keep to floors, rooms and doors and touch nothing;
-every key, button, exhibit and the way out can be reached on foot, without a key that lies behind its own lock.
+Movers enough of each kind; leaves of doors cover their openings; guards and the guided tour keep to floors, rooms and doors and
+touch nothing; every key, button, exhibit and the way out can be reached on foot, without a key that lies behind its own lock.
 """
 
+import csv
 import math
 import re
 from collections import Counter
@@ -25,6 +26,7 @@ LEAST = {
     "func_button": 3,
     "trigger_exit": 1,
 }
+EYE = 1.7
 SHOULDER = 0.2  # metres that a guard's path keeps from corners of pieces
 SLACK = 0.001  # no piece is thinner
 BODY = 0.28  # of a visitor, and what he must have beside him
@@ -36,11 +38,12 @@ ON_FOOT = {frozenset((s.lower, s.upper)) for s in STAIRS} | {frozenset(("BarrelR
 SLOPING = {room for pair in ON_FOOT for room in pair}
 
 
-def check(glb, near):
-    """Problems; `near` holds the corners of pieces by square metre, as check.py collects them."""
+def check(glb, near, river):
+    """Problems; `near` holds the corners of pieces by square metre, as check.py collects them; `river` is a file."""
     rooms = {room.name: room for room in plan.rooms()}
     portals = openings.resolve(rooms)
     problems = check_counts(glb) + check_doors(glb) + check_rounds(glb, rooms, portals, near)
+    problems += check_river(river, rooms, portals, near)
     return problems + check_reach(glb, rooms, portals) + check_floors(glb, rooms, portals)
 
 
@@ -160,6 +163,19 @@ def check_rounds(glb, rooms, portals, near):
             if trouble:
                 problems.append(f"{node['name']}: {trouble}")
                 break
+    return problems
+
+
+def check_river(path, rooms, portals, near):
+    """The guided tour closes, keeps to rooms and doors, and touches nothing."""
+    doors = [p for p in portals if p.kind and p.kind.sill == 0.0]
+    rows = [[float(v) for v in row.values()] for row in csv.DictReader(open(path, encoding="ascii"))]
+    feet = [(x, -z, y - EYE) for x, y, z, *_ in rows]
+    problems = [] if math.dist(feet[0], feet[-1]) < 3.0 else ["the river does not close"]
+    for p, q in zip(feet, feet[1:]):
+        trouble = next((t for t in (trouble_at(lerp(p, q, k / 4), rooms, doors, near) for k in range(4)) if t), None)
+        if trouble:
+            problems.append(f"the river: {trouble}")
     return problems
 
 

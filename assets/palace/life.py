@@ -7,7 +7,7 @@ import random
 import clockwork
 import doors
 import moving
-from geometry import add, centroid, depth_inside, length, scale, sub
+from geometry import add, centroid, length, scale, sub
 from placing import LIFT
 from tour import _passage, _via
 
@@ -328,20 +328,3 @@ def populate(scene, rooms, portals):
     exit_box = scene.child("Vestibule", "way_out", None, (0.0, -23.0, 1.2), 0.0, {"classname": "trigger_exit"})
     exit_box.scale = (2.0, 0.9, 1.2)
     return count
-
-
-def write_river(path, rooms, feet, eye):
-    """The guided tour's anchor: along the walk, slower in small rooms, looking at the middle of the room it is in."""
-    with open(path, "w", encoding="ascii", newline="\n") as file:
-        file.write("x,y,z,speed,spring,damping,thrust,look_x,look_y,look_z\n")
-        for i in range(0, len(feet), 30):
-            x, y, z = feet[i]
-            room = next((r for r in rooms.values() if r.floor - 0.6 <= z < r.ceiling and depth_inside(r.footprint, (x, y)) > 0), None)
-            middle = centroid(room.footprint) if room else (x, y)
-            area = max(1.0, abs(room.footprint[0][0] - room.footprint[2][0])) if room else 4.0
-            speed = min(1.8, 0.7 + 0.1 * area)
-            look_z = (room.floor if room else z) + 1.9
-            file.write(
-                f"{x:.3f},{z + eye:.3f},{-y:.3f},{speed:.2f},{3.0 + 12.0 / area:.2f},{3.5:.2f},{0.25 * area:.2f},"
-                f"{middle[0]:.3f},{look_z:.3f},{-middle[1]:.3f}\n"
-            )

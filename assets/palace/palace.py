@@ -16,6 +16,7 @@ import furnish  # noqa: E402
 import life  # noqa: E402
 import openings  # noqa: E402
 import plan  # noqa: E402
+import river  # noqa: E402
 import tour  # noqa: E402
 import trim  # noqa: E402
 from scene import Scene  # noqa: E402
@@ -55,7 +56,7 @@ def main():
     print(f"{movers} things move")
     scene.spawn("EntranceHall", (0.0, -15.0, 0.0), 0.0, EYE)
     tour.write(arguments.tour or Path(__file__).resolve().parents[2] / "maps" / "palace" / "tour.csv", feet)
-    life.write_river(Path(__file__).resolve().parents[2] / "maps" / "palace" / "river.csv", rooms, feet, EYE)
+    river.write(Path(__file__).resolve().parents[2] / "maps" / "palace" / "river.csv", rooms, portals, EYE)
     save(arguments)
     scene.export(str(Path(arguments.output).resolve()))
 

@@ -27,8 +27,6 @@ CellarStair Undercroft WineCellar BarrelVault Undercroft CryptPassage Crypt Cryp
 CheeseCellar BeerCellar BarrelRampFoot BarrelRampHead ClockRoom MunimentRoom CellarLobby Vestibule EntranceHall
 """.split()
 
-START = (0.0, -15.0, 0.0)
-
 # Way-points inside a room, for the visits of the route to it in order; None stands for the straight way.
 VIA = {
     "MapCabinet": [[(31.5, 11.5), (31.75, 13.5), (30.0, 13.5)]],
@@ -88,22 +86,26 @@ STAIRS = [
 ]
 
 
-def way_points(rooms, portals):
-    """The corners of the walk in space, at floor level, and the room each stretch between them lies in."""
+START, END = (0.0, -15.0, 0.0), (0.0, -13.0, 0.0)
+
+
+def way_points(rooms, portals, route=None, via=None, start=START, end=END):
+    """The corners of a walk along a route, by default the recorded one's, in space at floor level."""
+    route, via = route or ROUTE, VIA if via is None else via
     doors = {}
     for portal in portals:
         if portal.kind and portal.kind.sill == 0.0:
             doors.setdefault(frozenset((portal.source, portal.target)), portal)
-    points, visits = [START], {}
-    for here, there in zip(ROUTE, ROUTE[1:]):
+    points, visits = [start], {}
+    for here, there in zip(route, route[1:]):
         visit = visits[here] = visits.get(here, -1) + 1
-        points += [(*p, rooms[here].floor) for p in _via(here, visit)]
+        points += [(*p, rooms[here].floor) for p in _via(here, visit, via)]
         points += _passage(here, there, doors, rooms)
-    return points + [(0.0, -13.0, 0.0)]
+    return points + [end]
 
 
-def _via(name, visit):
-    ways = VIA.get(name, [])
+def _via(name, visit, via=None):
+    ways = (VIA if via is None else via).get(name, [])
     return ways[visit] if visit < len(ways) and ways[visit] else []
 
 
