@@ -4,9 +4,10 @@
 
 #include <string.h>
 
-/* Objects that were exposed and not drawn get new volumes, so many a frame: when a long view opens, it is paid for in instalments.
- * The others are exposed again in the next frame, which costs less. */
+/* Objects that were exposed and not drawn get new volumes, so many a frame and a share of the rest: when a long view opens, or the eye
+ * jumps, it is paid for in instalments. The others are exposed again in the next frame, which costs less. */
 #define RENEWED_A_FRAME 32U
+#define RENEWED_SHARE 8U
 
 /* ---- begin ------------------------------------------------------------------------------------------------------ */
 
@@ -306,9 +307,10 @@ static bool stays(const EnfDbvIndex *index, const EnfDbvExposure *exposure) {
 /* New volumes for what was exposed. */
 static void renew_exposed(EnfDbvIndex *index) {
     uint32_t renewed = 0;
+    uint32_t most = RENEWED_A_FRAME + (index->exposure_count - index->drawn.count) / RENEWED_SHARE;
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];
-        if (!stays(index, exposure) && (exposure->drawn || renewed < RENEWED_A_FRAME)) {
+        if (!stays(index, exposure) && (exposure->drawn || renewed < most)) {
             enf_dbv_renew(index, exposure->object, exposure->drawn ? ENF_DBV_DRAWN : ENF_DBV_SEEN);
             renewed += exposure->drawn ? 0U : 1U;
         }
