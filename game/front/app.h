@@ -6,10 +6,10 @@
 
 #include "front/audio.h"
 #include "front/plan.h"
-#include "front/river.h"
 #include "front/scene.h"
 #include "front/settings.h"
 #include "inspect/inspect.h"
+#include "sim/river.h"
 
 #define APP_NAME "Enfilade"
 
@@ -115,7 +115,9 @@ typedef struct App {
     Play play;
     EnfWorld *tour_world; /**< of title and guided tour: doors stand open */
     EnfPortals tour_portals;
-    River river;
+    EnfCollider *tour_collider;
+    GameRiver *river; /**< or NULL: the map has none */
+    EnfFile river_file;
     Plan plan;
     Audio audio;
     Input input;
@@ -154,7 +156,9 @@ void modes_tour(App *app);
 void modes_step(App *app, double elapsed_ms);
 /** Where the picture is taken from now, and how far it is between ticks. */
 double modes_eye(const App *app, EnfVec3 *eye_ws, EnfTurn *turn);
+/** The world of title and tour, and the river in it if its file is there. */
 EnfResult modes_tour_world(App *app, EnfError *error);
+void modes_tour_close(App *app);
 
 /* menu.c */
 void menu_open(App *app, MenuPage page); /**< over the others */

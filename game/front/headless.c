@@ -53,10 +53,10 @@ static double quantile(double *values, uint32_t count, double q) {
 
 /* Ticks of the whole tour. */
 static uint32_t tour_ticks(App *app) {
-    uint32_t ticks = 0;
-    river_start(&app->river);
-    while (!app->river.ended && ticks < TOUR_SECONDS_MAX * ENF_TICK_RATE) {
-        river_step(&app->river);
+    uint32_t ticks = 0, rounds = game_river_view(app->river).rounds;
+    game_river_start(app->river, NULL);
+    while (game_river_view(app->river).rounds == rounds && ticks < TOUR_SECONDS_MAX * ENF_TICK_RATE) {
+        game_river_step(app->river, NULL);
         ticks++;
     }
     return ticks;
@@ -66,7 +66,7 @@ static void step_tour(App *app, uint32_t ticks) {
     for (uint32_t i = 0; i < ticks; i++) {
         enf_world_advance(app->tour_world, 1);
         scene_tick(&app->scene);
-        river_step(&app->river);
+        game_river_step(app->river, NULL);
     }
 }
 
@@ -81,11 +81,11 @@ static int run_tour(App *app, EnfError *error) {
     static double ms[SCENE_CULLS][TOUR_FRAMES];
     uint32_t ticks = tour_ticks(app), frames = app->options.frames ? app->options.frames : TOUR_FRAMES;
     frames = frames > TOUR_FRAMES ? TOUR_FRAMES : frames;
-    river_start(&app->river);
+    game_river_start(app->river, NULL);
     for (uint32_t frame = 0; frame < frames; frame++) {
         step_tour(app, ticks / frames);
-        EnfTurn turn = enf_turn(app->river.yaw_deg, app->river.pitch_deg, 0.0);
-        scene_look(&app->scene, app->river.eye, turn, app->settings.fov);
+        GameRiverView view = game_river_view(app->river);
+        scene_look(&app->scene, view.eye_ws, enf_turn(view.yaw_deg, view.pitch_deg, 0.0), app->settings.fov);
         scene_measure(&app->scene, ENF_CULL_WORKLIST, 1.0);
         for (int cull = 0; app->options.stats && cull < SCENE_CULLS; cull++) {
             ms[cull][frame] = scene_measure(&app->scene, (EnfCull)cull, 1.0);
@@ -103,7 +103,7 @@ static int run_tour(App *app, EnfError *error) {
 }
 
 static int open_tour(App *app, EnfContext **context, EnfError *error) {
-    if (app->river.count == 0) {
+    if (app->river_file.size == 0) {
         enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "this map has no guided tour: name one with --river");
         return fail(error);
     }

@@ -106,7 +106,7 @@ static void find_river(App *app) {
     snprintf(relative, sizeof relative, "maps/%s/river.csv", name);
     const char *file = app->options.river ? app->options.river : find_file(relative, path) ? path : NULL;
     EnfError error = {0};
-    if (file && river_read(&app->river, file, &error) != ENF_OK) {
+    if (file && enf_file_read(&app->river_file, file, (size_t)1 << 24, NULL, &error) != ENF_OK) {
         fprintf(stderr, "enfilade: %s: %s\n", error.file, error.message);
     }
 }
@@ -262,9 +262,7 @@ static void close_all(App *app) {
     scene_destroy(&app->scene);
     play_close(&app->play);
     enf_gl_destroy(app->gl);
-    enf_world_destroy(app->tour_world);
-    enf_portals_destroy(&app->tour_portals);
-    river_free(&app->river);
+    modes_tour_close(app);
     audio_free(&app->audio);
     if (app->input.pad) {
         SDL_GameControllerClose(app->input.pad);

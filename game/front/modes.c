@@ -29,10 +29,27 @@ EnfResult modes_tour_world(App *app, EnfError *error) {
     EnfResult result = enf_world_create(&app->tour_world, &app->map, app->map.movers_count, NULL, error);
     result = result ? result : enf_world_populate(app->tour_world, error);
     result = result ? result : enf_portals_create(&app->tour_portals, &app->map, NULL, error);
+    result = result ? result : enf_collider_create(&app->tour_collider, &app->map, app->tour_world, NULL, error);
     if (result == ENF_OK) {
         open_doors(app);
     }
+    if (result == ENF_OK && app->river_file.size) {
+        GameRiverDef def = {(const char *)app->river_file.data, app->river_file.size, &app->map, app->tour_collider};
+        result = game_river_create(&app->river, &def, NULL, error);
+        result = enf_error_file(error, result, "the guided tour");
+    }
     return result;
+}
+
+void modes_tour_close(App *app) {
+    game_river_destroy(app->river);
+    enf_collider_destroy(app->tour_collider);
+    enf_world_destroy(app->tour_world);
+    enf_portals_destroy(&app->tour_portals);
+    enf_file_free(&app->river_file);
+    app->river = NULL;
+    app->tour_collider = NULL;
+    app->tour_world = NULL;
 }
 
 /* ---- changing ------------------------------------------------------------------------------------------------------- */
@@ -70,10 +87,10 @@ void modes_tour(App *app) {
     begin(app, APP_TOUR);
     menu_close_all(app);
     window_capture(app, true);
-    if (app->river.count) {
-        river_start(&app->river);
+    if (app->river) {
+        game_river_start(app->river, NULL);
     }
-    hud_notice(app, "Look around with the mouse. Esc: back");
+    hud_notice(app, "You are carried along: look around, push where you look. Esc: back");
 }
 
 EnfResult modes_play(App *app, EnfError *error) {
@@ -127,12 +144,10 @@ static void play_tick(App *app) {
 static void tour_tick(App *app) {
     enf_world_advance(app->tour_world, 1);
     scene_tick(&app->scene);
-    if (app->river.count) {
-        app->river.turned_deg += app->input.yaw_deg;
-        app->river.raised_deg += app->input.pitch_deg;
-        river_step(&app->river);
+    EnfInput input = input_take(&app->input, &app->settings, 0.0);
+    if (app->river) {
+        game_river_step(app->river, app->mode == APP_TOUR ? &input : NULL);
     }
-    app->input.yaw_deg = app->input.pitch_deg = 0.0;
 }
 
 static bool paused(const App *app) {
@@ -185,13 +200,11 @@ static void play_eye(const App *app, double alpha, EnfVec3 *eye_ws, EnfTurn *tur
 }
 
 static void tour_eye(const App *app, double alpha, EnfVec3 *eye_ws, EnfTurn *turn) {
-    const River *r = &app->river;
-    if (r->count) {
-        *eye_ws = mix(r->eye_before, r->eye, alpha);
-        double pitch = r->pitch_before_deg + (r->pitch_deg - r->pitch_before_deg) * alpha + r->raised_deg +
-                       app->input.pitch_deg;
-        double yaw = r->yaw_before_deg + (r->yaw_deg - r->yaw_before_deg) * alpha + r->turned_deg + app->input.yaw_deg;
-        *turn = enf_turn(yaw, pitch > 80.0 ? 80.0 : pitch < -80.0 ? -80.0 : pitch, 0.0);
+    if (app->river) {
+        GameRiverView r = game_river_view(app->river);
+        *eye_ws = mix(r.eye_before_ws, r.eye_ws, alpha);
+        double pitch = r.pitch_before_deg + (r.pitch_deg - r.pitch_before_deg) * alpha;
+        *turn = enf_turn(r.yaw_before_deg + (r.yaw_deg - r.yaw_before_deg) * alpha, pitch, 0.0);
         return;
     }
     /* A map without a tour: the middle of its first room, slowly turning. */

@@ -20,6 +20,8 @@
 #define WAITS_BEYOND 0.75
 #define WAITS_OVER 1.5
 #define GIVES_UP_TICKS 120
+#define STANDS_BELOW 0.05 /* share of its speed: the anchor only nears the place where it would stop */
+#define PASSES_BY 1.0     /* metres on, so that the eye is put behind what stopped it */
 /* The eye as a thing: metres. */
 #define EYE_RADIUS 0.15
 
@@ -290,7 +292,7 @@ static double pace(GameRiver *river, const Point *here) {
     double away = enf_length(enf_sub(place(here), river->view.eye_ws));
     double beyond = away - here->value[THRUST] / here->value[SPRING] - WAITS_BEYOND;
     double share = fmin(fmax(1.0 - beyond / WAITS_OVER, 0.0), 1.0);
-    river->stopped = share > 0.0 ? 0 : river->stopped + 1;
+    river->stopped = share > STANDS_BELOW ? 0 : river->stopped + 1;
     return share;
 }
 
@@ -305,7 +307,9 @@ void game_river_step(GameRiver *river, const EnfInput *input) {
     Point here = anchor(river);
     double speed = here.value[SPEED] * pace(river, &here);
     EnfVec3 current = enf_scale(enf_normalize(enf_sub(place(a + 1), place(a))), speed);
-    if (drift(river, speed * TICK) || river->stopped >= GIVES_UP_TICKS) {
+    /* What stands in the way for so long is gone round: put where the anchor waited, the eye would be stopped there again. */
+    bool gives_up = river->stopped >= GIVES_UP_TICKS;
+    if (drift(river, gives_up ? PASSES_BY : speed * TICK) || gives_up) {
         put(river);
         return;
     }
