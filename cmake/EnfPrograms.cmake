@@ -110,6 +110,11 @@ if(front_sources AND TARGET enf_game AND TARGET enf_inspect AND TARGET enf_commo
     # Where the palace, its tour and the sounds lie if they are not beside the program.
     target_compile_definitions(enfilade PRIVATE ENF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     target_link_libraries(enfilade PRIVATE enf_game enf_inspect enf_common enf_gl enf_core PkgConfig::SDL2 ${CJSON_LIBRARY} m)
+    if(ENF_ASSERTS AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
+      # The test of the game counts what warm frames ask of the heap.
+      target_compile_definitions(enfilade PRIVATE ENF_COUNT_HEAP)
+      target_link_options(enfilade PRIVATE -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc)
+    endif()
     install(TARGETS enfilade RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
   else()
     message(STATUS "enfilade (the game) is left out: SDL 2 or cJSON is not there")

@@ -92,5 +92,12 @@ if(TARGET enf_core AND TARGET enfc AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE)
   set_tests_properties(install PROPERTIES LABELS fast TIMEOUT ${ENF_TIMEOUT_FAST})
 endif()
 
+# The game, as a person plays it: on a screen of Xvfb, with keys and a mouse by xdotool.
+if(TARGET enfilade AND TARGET enfc AND TARGET enfreplay AND NOT CMAKE_CROSSCOMPILING)
+  add_test(NAME play COMMAND ${PROJECT_SOURCE_DIR}/tests/game/play.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_SOURCE_DIR}
+                             ${CMAKE_BINARY_DIR}/game_test $<IF:$<BOOL:${ENF_SANITIZE}>,sanitized,no>)
+  set_tests_properties(play PROPERTIES LABELS "fast;game;gl" TIMEOUT ${ENF_TIMEOUT_FAST} SKIP_RETURN_CODE 77 RUN_SERIAL ON)
+endif()
+
 include(EnfStyle)
 include(EnfFuzz)

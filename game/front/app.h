@@ -15,7 +15,7 @@
 
 typedef struct Options {
     const char *map, *record, *play, *config, *river, *shot;
-    bool headless, fullscreen, mute, tour, stats;
+    bool headless, fullscreen, mute, tour, stats, tell;
     uint32_t size[2]; /**< 0: of the settings */
     uint32_t frames;  /**< 0: until the person quits */
     uint32_t seed;
@@ -129,6 +129,10 @@ typedef struct App {
     double over_ms;   /**< since the game was won or lost */
     uint64_t frames, ticks;
     uint32_t shots;
+    int told;                /**< --tell: the mode and menu that were told last */
+    uint32_t warm;           /**< frames of play since something was opened or changed */
+    unsigned long warm_heap; /**< heap calls in warm frames */
+    uint64_t warm_frames;
     char notice[128]; /**< of the program, not the game */
     double notice_until_ms;
 } App;

@@ -36,6 +36,7 @@ static void freeze(App *app) {
 bool engineer_key(App *app, SDL_Scancode code) {
     Engineer *e = &app->engineer;
     char text[64];
+    app->warm = 0;
     switch (code) {
     case SDL_SCANCODE_F1:
         e->counters = !e->counters;

@@ -104,6 +104,21 @@ static void arrow(Canvas *c, const double at[2], double yaw_deg, double size, ui
     canvas_triangle(c, corners, rgba);
 }
 
+/* "GreatHall-room" → "Great Hall": what an author calls a cell, as a person says it. */
+static void room_name(const App *app, uint32_t cell, char out[64]) {
+    const char *name = cell == ENF_NONE ? "Outside" : enf_map_string(&app->map, app->map.cells[cell].name);
+    const char *end = strstr(name, "-room");
+    size_t used = 0;
+    for (const char *c = name; *c && c != end && used < 62; c++) {
+        bool begins = *c >= 'A' && *c <= 'Z' && c > name && c[-1] >= 'a' && c[-1] <= 'z';
+        if (begins) {
+            out[used++] = ' ';
+        }
+        out[used++] = *c == '_' ? ' ' : *c;
+    }
+    out[used] = '\0';
+}
+
 static void map_screen(App *app, const GameState *s) {
     Canvas *c = &app->canvas;
     double u = c->unit;
@@ -128,8 +143,9 @@ static void map_screen(App *app, const GameState *s) {
     plan_place(&view, s->eye_ws.x, s->eye_ws.z, at);
     arrow(c, at, s->yaw_deg, 9.0 * u, 0xff4080ffu);
     CanvasStyle style = canvas_style(20.0 * u, PALE);
-    canvas_text(c, &style, 40.0 * u, 52.0 * u,
-                s->cell == ENF_NONE ? "Outside" : enf_map_string(&app->map, app->map.cells[s->cell].name));
+    char room[64];
+    room_name(app, s->cell, room);
+    canvas_text(c, &style, 40.0 * u, 52.0 * u, room);
     style = canvas_style(12.0 * u, DIM);
     char text[160];
     snprintf(text, sizeof text,

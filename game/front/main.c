@@ -8,6 +8,7 @@
 
 #include "common/cli.h"
 #include "front/app.h"
+#include "front/heap.h"
 
 static const char about[] =
     "A night at the palace: find exhibits and carry them out past the guards. Any other compiled level can be walked.\n"
@@ -33,6 +34,7 @@ static EnfCliResult parse(Options *o, int argc, char **argv) {
         {"--seed", NULL, ENF_OPTION_NUMBER, &seed, "N", NULL, "of the game's dice (1)"},
         {"--river", NULL, ENF_OPTION_TEXT, &o->river, "FILE.csv", NULL, "the guided tour (maps/MAP/river.csv)"},
         {"--config", NULL, ENF_OPTION_TEXT, &o->config, "FILE.json", NULL, "the settings"},
+        {"--tell", NULL, ENF_OPTION_FLAG, &o->tell, NULL, NULL, "say on stdout what goes on (for tests)"},
         {"--mute", NULL, ENF_OPTION_FLAG, &o->mute, NULL, NULL, "no sound"},
     };
     const EnfCli cli = {"enfilade", "[options]", about, options, sizeof options / sizeof *options};
@@ -173,11 +175,47 @@ static void draw_frame(App *app) {
     enf_gl_ui_draw(app->ui, app->canvas.vertices, app->canvas.count, width, height);
 }
 
+/* ---- telling a test --------------------------------------------------------------------------------------------------------- */
+
+static void tell(App *app) {
+    static const char *const modes[] = {"loading", "title", "playing", "tour"};
+    static const char *const menus[] = {"none", "title",   "pause", "settings", "controls",
+                                        "keys", "picture", "sound", "won",      "lost"};
+    int now = (int)app->mode * 64 + (int)menu_page(app) + 1;
+    if (app->options.tell && now != app->told) {
+        app->told = now;
+        printf("mode %s menu %s\n", modes[app->mode], menus[menu_page(app)]);
+        fflush(stdout);
+    }
+}
+
+enum { WARM_FRAMES = 12 };
+
+/* Heap calls of frames of undisturbed play. */
+static void count_heap(App *app, unsigned long before) {
+    bool plays = app->mode == APP_PLAYING && menu_page(app) == MENU_NONE;
+    app->warm = plays ? app->warm + 1 : 0;
+    if (app->warm > WARM_FRAMES) {
+        app->warm_frames++;
+        app->warm_heap += heap_calls() - before;
+    }
+}
+
+static void tell_end(const App *app) {
+    if (app->options.tell) {
+        printf("frames %llu ticks %llu warm %llu heap %lu sounds %u mixed %u\n", (unsigned long long)app->frames,
+               (unsigned long long)app->ticks, (unsigned long long)app->warm_frames, app->warm_heap,
+               (unsigned)AUDIO_KINDS - app->audio.missing, atomic_load(&app->audio.frames));
+    }
+}
+
 static int run_frames(App *app, EnfError *error) {
     double last = scene_now_ms();
     int status = ENF_EXIT_OK;
     while (!app->quit) {
         events_handle(app);
+        tell(app);
+        unsigned long heap = heap_calls();
         double now = scene_now_ms();
         modes_step(app, now - last);
         app->engineer.frame_ms[app->engineer.frame++ % GRAPH_FRAMES] = now - last;
@@ -185,6 +223,7 @@ static int run_frames(App *app, EnfError *error) {
         if (app->width_px > 0 && app->height_px > 0 && app->scene.target) {
             draw_frame(app);
         }
+        count_heap(app, heap);
         app->frames++;
         bool ends = app->options.frames && app->frames >= app->options.frames;
         ends = ends || (app->options.frames && app->play.replays && app->play.replay_ended);
@@ -250,6 +289,7 @@ static int run_window(App *app) {
     result = result || app->quit ? result : begin(app, &error);
     int status = result ? app_fail(app, &error) : run_frames(app, &error);
     if (result == ENF_OK) {
+        tell_end(app);
         save_at_end(app);
         status = finish(app, status);
     }
