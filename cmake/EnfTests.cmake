@@ -94,8 +94,12 @@ endif()
 
 # The game, as a person plays it: on a screen of Xvfb, with keys and a mouse by xdotool.
 if(TARGET enfilade AND TARGET enfc AND TARGET enfreplay AND NOT CMAKE_CROSSCOMPILING)
+  set(sanitized no)
+  if(ENF_SANITIZE)
+    set(sanitized sanitized)
+  endif()
   add_test(NAME play COMMAND ${PROJECT_SOURCE_DIR}/tests/game/play.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_SOURCE_DIR}
-                             ${CMAKE_BINARY_DIR}/game_test $<IF:$<BOOL:${ENF_SANITIZE}>,sanitized,no>)
+                             ${CMAKE_BINARY_DIR}/game_test ${sanitized})
   set_tests_properties(play PROPERTIES LABELS "fast;game;gl" TIMEOUT ${ENF_TIMEOUT_FAST} SKIP_RETURN_CODE 77 RUN_SERIAL ON)
 endif()
 
