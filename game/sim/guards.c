@@ -13,8 +13,9 @@ enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 #define RETURN_SPEED 1.4
 #define CATCH_DISTANCE 0.95
 #define TURN_RATE 200.0 /* degrees a second */
-#define NOTICE_RATE 1.5 /* a second, of somebody fully seen nearby */
+#define NOTICE_RATE 1.0 /* a second, of somebody fully seen nearby */
 #define NOTICE_FADES 0.12
+#define HEARD_MOST 0.6 /* what is only heard is looked for, not chased */
 /* A step up is a leap of 0.4 m in one tick: no point of a guard is faster than that and its way. */
 #define GUARD_SPEED_MAX 45.0
 
@@ -239,7 +240,7 @@ void sim_guards_hear(Game *game, EnfVec3 at, double metres) {
         double way = sim_ways_to(game, &game->ears, guard->body.position, guard->body.cell, &last);
         if (way < metres && guard->mood != GAME_GUARD_CHASES) {
             guard->last_seen = at;
-            guard->notice = fmin(1.0, guard->notice + 0.3 * (1.0 - way / metres));
+            guard->notice = fmax(guard->notice, fmin(HEARD_MOST, guard->notice + 0.25 * (1.0 - way / metres)));
             if (guard->notice > 0.35 && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
                 wonder(game, guard);
             }

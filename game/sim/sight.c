@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define SIGHT_FAR 24.0
+#define SIGHT_FAR 20.0
 #define SIGHT_FOV 100.0
 enum { SIGHT_WIDTH = 160, SIGHT_HEIGHT = 120 };
 
@@ -110,7 +110,7 @@ double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look) {
     const EnfCharacter *body = &game->player.body;
     EnfVec3 feet = body->position, way = enf_sub(enf_add(feet, enf_v3(0.0, 0.6 * body->height, 0.0)), eye);
     double away = enf_length(way);
-    if (away > SIGHT_FAR || enf_dot(way, look) < 0.3 * away) {
+    if (away > SIGHT_FAR || enf_dot(way, look) < 0.45 * away) {
         return 0.0;
     }
     EnfView view = enf_view_default();
@@ -129,6 +129,6 @@ double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look) {
     }
     double light = sim_light(game, body->cell, enf_add(feet, enf_v3(0.0, 1.0, 0.0)));
     double near = 1.0 - away / SIGHT_FAR;
-    double ahead = enf_dot(way, look) > 0.75 * away ? 1.0 : 0.55;
+    double ahead = enf_dot(way, look) > 0.75 * away ? 1.0 : 0.45;
     return shows * ahead * near * near * (away < 2.5 ? fmax(light, 0.5) : light);
 }
