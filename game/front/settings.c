@@ -80,7 +80,7 @@ static void take_keys(const cJSON *object, int keys[ACTION_COUNT]) {
         if (cJSON_IsString(item) && item->valuestring) {
             SDL_Scancode code = SDL_GetScancodeFromName(item->valuestring);
             if (code != SDL_SCANCODE_UNKNOWN) {
-                keys[i] = code;
+                keys[i] = (int)code;
             }
         }
     }
