@@ -60,11 +60,14 @@ void canvas_rectangle(Canvas *canvas, const double box[4], uint32_t rgba) {
     canvas_gradient(canvas, box, rgba, rgba);
 }
 
-void canvas_frame(Canvas *canvas, const double box[4], double t, uint32_t rgba) {
-    const double sides[4][4] = {{box[0], box[1], box[2], t},
-                                {box[0], box[1] + box[3] - t, box[2], t},
-                                {box[0], box[1] + t, t, box[3] - 2.0 * t},
-                                {box[0] + box[2] - t, box[1] + t, t, box[3] - 2.0 * t}};
+/* On whole pixels: a side thinner than one, between two, would be missed by both. */
+void canvas_frame(Canvas *canvas, const double box[4], double thickness, uint32_t rgba) {
+    double t = thickness > 1.0 ? round(thickness) : 1.0, x = round(box[0]), y = round(box[1]);
+    double width = round(box[2]), height = round(box[3]);
+    const double sides[4][4] = {{x, y, width, t},
+                                {x, y + height - t, width, t},
+                                {x, y + t, t, height - 2.0 * t},
+                                {x + width - t, y + t, t, height - 2.0 * t}};
     for (int i = 0; i < 4; i++) {
         canvas_rectangle(canvas, sides[i], rgba);
     }

@@ -24,6 +24,10 @@ static void crosshair(Canvas *c, bool warm) {
     canvas_line(c, dot, r, warm ? 0xff80d0ffu : 0xc0ffffffu);
 }
 
+static const char *key_name(const App *app, Action action) {
+    return SDL_GetScancodeName((SDL_Scancode)app->settings.keys[action]);
+}
+
 /* A line of text on a soft ground, its middle at x. */
 static void caption(Canvas *c, double y, double size, uint32_t rgba, const char *text) {
     if (!*text) {
@@ -35,6 +39,13 @@ static void caption(Canvas *c, double y, double size, uint32_t rgba, const char 
     const double ground[4] = {0.5 * (c->width - width), y - 1.75 * size, width, 2.6 * size};
     canvas_rectangle(c, ground, 0x78100c08u);
     canvas_text(c, &style, 0.5 * c->width, y, text);
+}
+
+/* What `use` would do, and the key for it. */
+static void prompt(App *app, const GameState *s) {
+    char text[GAME_TEXT_SIZE + 64];
+    snprintf(text, sizeof text, "%.40s: %s", key_name(app, ACTION_USE), s->prompt);
+    caption(&app->canvas, 0.62 * app->canvas.height, 14.0 * app->canvas.unit, 0xff90d0f8u, *s->prompt ? text : "");
 }
 
 /* An eye that opens as guards notice; and how bright it is where you stand. */
@@ -119,6 +130,23 @@ static void room_name(const App *app, uint32_t cell, char out[64]) {
     out[used] = '\0';
 }
 
+/* Where exhibits lie: those of this storey full, those above or below as frames. */
+static void exhibits(Canvas *c, const PlanView *view, const GameState *s) {
+    for (uint32_t i = 0; i < s->exhibits; i++) {
+        const GameExhibitView *exhibit = &s->exhibit_views[i];
+        double above = exhibit->at_ws.y - s->eye_ws.y, at[2], half = 4.0 * c->unit;
+        if (exhibit->lies) {
+            plan_place(view, exhibit->at_ws.x, exhibit->at_ws.z, at);
+            const double mark[4] = {at[0] - half, at[1] - half, 2.0 * half, 2.0 * half};
+            if (above > -2.5 && above < 2.0) {
+                canvas_rectangle(c, mark, WARM);
+            } else {
+                canvas_frame(c, mark, c->unit, DIM);
+            }
+        }
+    }
+}
+
 static void map_screen(App *app, const GameState *s) {
     Canvas *c = &app->canvas;
     double u = c->unit;
@@ -140,6 +168,7 @@ static void map_screen(App *app, const GameState *s) {
             canvas_text(c, &way, at[0] + 9.0 * u, at[1] + 4.0 * u, "way out");
         }
     }
+    exhibits(c, &view, s);
     plan_place(&view, s->eye_ws.x, s->eye_ws.z, at);
     arrow(c, at, s->yaw_deg, 9.0 * u, 0xff4080ffu);
     CanvasStyle style = canvas_style(20.0 * u, PALE);
@@ -149,18 +178,28 @@ static void map_screen(App *app, const GameState *s) {
     style = canvas_style(12.0 * u, DIM);
     char text[160];
     snprintf(text, sizeof text,
-             "Find %u exhibits and carry them out past the guards. %u lie in the rooms. They see by light: stay in the dark.",
-             s->wanted, s->exhibits_left);
+             "Carry %u of %u exhibits to the way out. Full squares: on this storey. Guards see by light: keep to the dark.",
+             s->wanted, s->exhibits);
     canvas_text(c, &style, 40.0 * u, c->height - 40.0 * u, text);
 }
 
 /* ---- all -------------------------------------------------------------------------------------------------------------- */
 
-static void objective(Canvas *c, const GameState *s) {
+/* What a stranger has to know, at the start: what for, and with which keys. */
+static void objective(App *app, const GameState *s) {
+    Canvas *c = &app->canvas;
+    char text[320];
     if (s->tick < 7 * ENF_TICK_RATE && s->wanted) {
-        char text[96];
         snprintf(text, sizeof text, "Carry %u exhibits out of the palace. Let no guard see you.", s->wanted);
         caption(c, 0.24 * c->height, 17.0 * c->unit, PALE, text);
+    }
+    if (s->tick < 15 * ENF_TICK_RATE && !app->play.replays) {
+        snprintf(text, sizeof text,
+                 "%.20s %.20s %.20s %.20s: walk    %.20s: run    %.20s: crouch    %.20s: take, open    %.20s: map    Esc: menu",
+                 key_name(app, ACTION_FORWARD), key_name(app, ACTION_LEFT), key_name(app, ACTION_BACK),
+                 key_name(app, ACTION_RIGHT), key_name(app, ACTION_RUN), key_name(app, ACTION_CROUCH),
+                 key_name(app, ACTION_USE), key_name(app, ACTION_MAP));
+        caption(c, 0.33 * c->height, 12.0 * c->unit, PALE, text);
     }
 }
 
@@ -198,11 +237,11 @@ void hud_draw(App *app) {
             map_screen(app, s);
         } else if (menu_page(app) == MENU_NONE) {
             crosshair(c, *s->prompt != '\0');
-            caption(c, 0.62 * c->height, 14.0 * c->unit, 0xff90d0f8u, s->prompt);
+            prompt(app, s);
             caption(c, 0.16 * c->height, 16.0 * c->unit, PALE, s->message);
             visibility(c, s);
             possessions(c, s);
-            objective(c, s);
+            objective(app, s);
             over(app, s);
         }
         replay_lines(app);

@@ -5,15 +5,25 @@
 #include "front/app.h"
 #include "sim/record.h"
 
+/* As enfreplay names maps, so that it finds them beside a recording: the file's name without folder and ending. */
+static void map_name(const char *path, char name[ENF_REPLAY_TEXT_SIZE]) {
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
+    snprintf(name, ENF_REPLAY_TEXT_SIZE, "%.*s", dot && dot != base ? (int)(dot - base) : (int)strlen(base), base);
+}
+
 static EnfResult begin_recording(Play *play, const EnfMap *map, const Options *options, EnfError *error) {
-    EnfReplayHeader header = game_replay_header(play->game, &play->def, map, options->map);
+    char name[ENF_REPLAY_TEXT_SIZE];
+    map_name(options->map, name);
+    EnfReplayHeader header = game_replay_header(play->game, &play->def, map, name);
     snprintf(header.title, sizeof header.title, "played");
     return enf_recorder_create(&play->recorder, &header, options->record, NULL, error);
 }
 
 static EnfResult begin_replay(Play *play, const EnfMap *map, const Options *options, EnfError *error) {
+    char name[ENF_REPLAY_TEXT_SIZE];
+    map_name(options->map, name);
     EnfResult result = enf_replay_read(&play->replay, options->play, ENF_REPLAY_WHOLE, NULL, error);
-    result = result ? result : enf_replay_accept(&play->replay, GAME_NAME, options->map, map->hash, error);
+    result = result ? result : enf_replay_accept(&play->replay, GAME_NAME, name, map->hash, error);
     result = result ? result : game_def_from_header(&play->def, &play->replay.header, error);
     if (result == ENF_OK) {
         play->replays = true;

@@ -133,6 +133,7 @@ static void find_exit(Game *game) {
     X(item_objects, game->mover_room)                                                                                          \
     X(guards, game->mover_room)                                                                                                \
     X(guard_views, game->mover_room)                                                                                           \
+    X(exhibit_views, game->mover_room)                                                                                         \
     X(gates, game->map->portals_count)                                                                                         \
     X(ways.distance, game->map->portals_count)                                                                                 \
     X(ways.before, game->map->portals_count)                                                                                   \

@@ -44,6 +44,12 @@ typedef struct GameGuardView {
     GameGuardMood mood;
 } GameGuardView;
 
+/** An exhibit, for maps. */
+typedef struct GameExhibitView {
+    EnfVec3 at_ws; /**< where it lies */
+    bool lies;     /**< neither carried nor carried out */
+} GameExhibitView;
+
 /** What is to be shown of the game; valid until the next step. */
 typedef struct GameState {
     GamePhase phase;
@@ -61,8 +67,9 @@ typedef struct GameState {
     double noticed;                   /**< the most that any guard has noticed, 0..1 */
     const GameGuardView *guards;
     uint32_t guard_count;
-    char prompt[GAME_TEXT_SIZE];  /**< what `use` would do here, or "" */
-    char message[GAME_TEXT_SIZE]; /**< the newest message, or "" once it is old */
+    const GameExhibitView *exhibit_views; /**< `exhibits` of them */
+    char prompt[GAME_TEXT_SIZE];          /**< what `use` would do here, or "" */
+    char message[GAME_TEXT_SIZE];         /**< the newest message, or "" once it is old */
 } GameState;
 
 /** X(NAME, "file stem in assets/sounds"): what can be heard. Of a stem without a file of its own there are several, stem_1, stem_2 ... */

@@ -113,7 +113,10 @@ static void press(Game *game, uint32_t index) {
 static void open_door(Game *game, uint32_t index, bool now) {
     const SimDoor *door = &game->doors[index];
     bool barred = door->locked && !(door->key && sim_has_key(game, door->key));
-    snprintf(game->shown.prompt, GAME_TEXT_SIZE, "%s", barred ? "locked" : door->wanted == 0.0 ? "open the door" : "");
+    snprintf(game->shown.prompt, GAME_TEXT_SIZE, "%s",
+             barred                ? "try the locked door"
+             : door->wanted == 0.0 ? "open the door"
+                                   : "");
     if (now && !sim_door_open(game, index, false)) {
         sim_say(game, "The door is locked");
     }

@@ -4,18 +4,19 @@
 #include <math.h>
 #include <string.h>
 
-static void show_items(const Game *game, GameState *shown) {
+static void show_items(Game *game, GameState *shown) {
     shown->carried = shown->carried_value = shown->exhibits = shown->exhibits_left = 0;
     for (uint32_t i = 0; i < game->item_count; i++) {
         const SimItem *item = &game->items[i];
         if (item->is_key) {
             continue;
         }
-        shown->exhibits++;
+        game->exhibit_views[shown->exhibits++] = (GameExhibitView){item->at, item->state == SIM_ITEM_LIES};
         shown->exhibits_left += item->state == SIM_ITEM_LIES;
         shown->carried += item->state == SIM_ITEM_CARRIED;
         shown->carried_value += item->state == SIM_ITEM_CARRIED ? item->value : 0;
     }
+    shown->exhibit_views = game->exhibit_views;
 }
 
 static void show_guards(Game *game, GameState *shown) {

@@ -117,6 +117,7 @@ struct Game {
 
     GameState shown;
     GameGuardView *guard_views;
+    GameExhibitView *exhibit_views;
     GameSound sounds[SIM_SOUNDS_MAX];
     uint32_t sound_count;
     int64_t message_until;
