@@ -288,17 +288,17 @@ static void run(Eye eye, uint64_t stream, uint32_t ticks) {
 
 static void test_a_still_eye(void **state) {
     (void)state;
-    run(EYE_STILL, 1, enf_test_rounds(400, 20000));
+    run(EYE_STILL, 1, enf_test_rounds(400, 36000));
 }
 
 static void test_a_walking_eye(void **state) {
     (void)state;
-    run(EYE_WALKS, 2, enf_test_rounds(400, 20000));
+    run(EYE_WALKS, 2, enf_test_rounds(400, 36000));
 }
 
 static void test_a_jumping_eye(void **state) {
     (void)state;
-    run(EYE_JUMPS, 3, enf_test_rounds(400, 20000));
+    run(EYE_JUMPS, 3, enf_test_rounds(400, 36000));
 }
 
 /* The traversal exposes as the windows do that it made. */

@@ -209,15 +209,19 @@ static void add_counters(const MoversScene *scene, const Runner *runner, BenchRo
     row->bytes_object = (double)enf_dbv_bytes(runner->index) / (double)scene->def.movers;
 }
 
-static void add_row(BenchRun *run, const char *experiment, const char *name, const MoversScene *scene, Runner *runner) {
+static void write_params(const MoversDef *def, char params[BENCH_TEXT]) {
     static const char *const motions[] = {"free", "linear", "spline", "character"};
     static const char *const eyes[] = {"still", "walk", "jump"};
+    snprintf(params, BENCH_TEXT,
+             "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u seed=%u",
+             def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors,
+             def->door_width, def->polygons, def->period, def->seed);
+}
+
+static void add_row(BenchRun *run, const char *experiment, const char *name, const MoversScene *scene, Runner *runner) {
     const MoversDef *def = &scene->def;
     BenchRow row = bench_row(experiment, name, techniques[runner->technique].name);
-    snprintf(row.params, sizeof row.params,
-             "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u", def->rooms,
-             def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors, def->door_width,
-             def->polygons, def->period);
+    write_params(def, row.params);
     row.frames = runner->frames;
     row.lost_objects = runner->plain == NULL ? runner->lost : -1.0;
     row.objects = runner->drawn / (double)runner->frames;
@@ -261,6 +265,20 @@ bool bench_movers_known(const char *list) {
     return known == words;
 }
 
+/* Was this case measured before? So it is where knobs given with --set leave nothing of what an experiment varies. */
+static bool is_measured(const BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
+    char params[BENCH_TEXT];
+    write_params(def, params);
+    for (uint32_t i = 0; i < run->rows.count; i++) {
+        const BenchRow *row = &run->rows.rows[i];
+        if (strcmp(row->experiment, experiment) == 0 && strcmp(row->scene, name) == 0 && strcmp(row->params, params) == 0 &&
+            is_chosen(def->techniques, row->technique)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool run_frames(BenchRun *run, const MoversScene *scene, Runner *runners, uint32_t count) {
     MoversWindows windows = {NULL, 0, 0};
     bool ok = true;
@@ -289,6 +307,11 @@ bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, 
     uint32_t count = 0;
     if (!bench_movers_open(&scene, def)) {
         return false;
+    }
+    def = &scene.def; /* rooms are rounded up to a grid */
+    if (is_measured(run, experiment, name, def)) {
+        bench_movers_close(&scene);
+        return true;
     }
     bool ok = true;
     for (uint32_t t = 0; t < TECHNIQUES && ok; t++) {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH = 3600, BATCHES = 30, WAYS = 3, IDLE = 2 };
+enum { FRAMES = 108000, BATCHES = 30, WAYS = 3, IDLE = 2 };
 
 /* A cube's way: along x in steps of half its side, or around a point by a degree a tick. */
 typedef struct Cube {
@@ -60,7 +60,32 @@ typedef struct Way {
     EnfWorld *world;
     EnfDbvIndex *index;
     double times[BATCHES];
+    uint64_t hash; /* of the volumes that it left, a batch each */
 } Way;
+
+/* What --set says. */
+typedef struct Knobs {
+    uint32_t batch; /* ticks */
+    uint32_t seed;
+    bool rows[IDLE]; /* naive, lca: wanted? Both run, for their ratio. */
+} Knobs;
+
+static const char *const names[IDLE] = {"naive", "lca"};
+
+static bool read_knobs(BenchRun *run, Knobs *knobs) {
+    double frames = bench_knob(&run->knobs, "frames", FRAMES, BATCHES, 1e9);
+    knobs->batch = (uint32_t)(frames / BATCHES);
+    knobs->seed = (uint32_t)bench_knob(&run->knobs, "seed", 1.0, 0.0, 4e9);
+    const char *policy = bench_knob_text(&run->knobs, "policy", "all");
+    bool all = strcmp(policy, "all") == 0 || strcmp(policy, "naive,lca") == 0 || strcmp(policy, "lca,naive") == 0;
+    knobs->rows[0] = all || strcmp(policy, names[0]) == 0;
+    knobs->rows[1] = all || strcmp(policy, names[1]) == 0;
+    if (!knobs->rows[0] && !knobs->rows[1]) {
+        fprintf(stderr, "enfbench: policy=%s: naive and lca are expected, separated by commas\n", policy);
+        return false;
+    }
+    return true;
+}
 
 static bool open_way(Way *way, const EnfMap *map, const Cube *cube, EnfDbvUpdate update) {
     EnfError error = {ENF_OK, 0, "", ""};
@@ -79,15 +104,21 @@ static bool open_way(Way *way, const EnfMap *map, const Cube *cube, EnfDbvUpdate
 }
 
 /* A tick's time. */
-static double batch(Way *way) {
+static double batch(Way *way, uint32_t ticks) {
     double start = bench_now_us();
-    for (int i = 0; i < BATCH; i++) {
+    for (uint32_t i = 0; i < ticks; i++) {
         uint32_t count = 0;
         (void)enf_dbv_begin(way->index, NULL);
         (void)enf_dbv_end(way->index, &count);
         enf_world_advance(way->world, 1);
     }
-    return (bench_now_us() - start) / BATCH;
+    double spent = (bench_now_us() - start) / ticks;
+    EnfBox3f volume = {{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}};
+    int64_t expiry = 0;
+    (void)enf_dbv_volume(way->index, 0, &volume, &expiry);
+    way->hash = enf_hash64(way->hash, &volume, sizeof volume);
+    way->hash = enf_hash64(way->hash, &expiry, sizeof expiry);
+    return spent;
 }
 
 /* How many nodes fewer. */
@@ -97,15 +128,15 @@ static double ways_nodes(const Way *ways) {
     return (double)naive.nodes / (double)lca.nodes;
 }
 
-static void add_rows(BenchRun *run, const char *experiment, const char *params, Way *ways) {
-    static const char *const names[IDLE] = {"naive", "lca"};
+static void add_rows(BenchRun *run, const char *experiment, const char *params, Way *ways, const Knobs *knobs) {
     double idle = bench_quantile(ways[IDLE].times, BATCHES, 0.5);
     double first = 0.0;
     for (int w = 0; w < IDLE; w++) {
         EnfDbvCounters counters = enf_dbv_total_counters(ways[w].index);
         BenchRow row = bench_row(experiment, "update", names[w]);
         snprintf(row.params, sizeof row.params, "%s", params);
-        row.frames = BATCH * BATCHES;
+        row.frames = knobs->batch * BATCHES;
+        row.hash = ways[w].hash;
         row.nodes = (double)counters.nodes / (double)row.frames;
         row.reinserted = (double)counters.reinserted / (double)row.frames;
         row.late = (double)counters.late;
@@ -114,11 +145,13 @@ static void add_rows(BenchRun *run, const char *experiment, const char *params, 
         first = w == 0 ? row.median_us : first;
         row.ratio_median = first / row.median_us;
         row.ratio_best = w == 0 ? 1.0 : ways_nodes(ways);
-        bench_rows_add(&run->rows, &row);
+        if (knobs->rows[w]) {
+            bench_rows_add(&run->rows, &row);
+        }
     }
 }
 
-static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *def, const Cube *cube) {
+static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *def, const Cube *cube, const Knobs *knobs) {
     EnfRooms rooms;
     EnfError error = {ENF_OK, 0, "", ""};
     Way ways[WAYS];
@@ -134,14 +167,14 @@ static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *de
     for (int b = 0; b < BATCHES && ok; b++) {
         for (int w = 0; w < WAYS; w++) {
             Way *way = &ways[(w + b) % WAYS];
-            way->times[b] = batch(way);
+            way->times[b] = batch(way, knobs->batch);
         }
     }
     if (ok) {
         char params[BENCH_TEXT];
-        snprintf(params, sizeof params, "rooms=%u boxes=%u ratio=%.0f", def->nx * def->nz, def->furniture,
-                 (double)def->nx * def->room.x / cube->side);
-        add_rows(run, experiment, params, ways);
+        snprintf(params, sizeof params, "rooms=%u boxes=%u ratio=%.0f seed=%u", def->nx * def->nz, def->furniture,
+                 (double)def->nx * def->room.x / cube->side, knobs->seed);
+        add_rows(run, experiment, params, ways, knobs);
     }
     for (int w = 0; w < WAYS; w++) {
         enf_dbv_destroy(ways[w].index);
@@ -153,34 +186,42 @@ static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *de
     return ok;
 }
 
-/* The large cube is a building, along whose wall the small one goes; its tree is as deep as the ratio of sizes asks. */
+/* The large cube is a building, through a row of whose rooms the small one goes; its tree is as deep as the ratio of sizes asks. The
+ * seed chooses the row. */
 bool bench_s1(BenchRun *run) {
+    Knobs knobs;
     uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 4096.0, 1.0, 1e6);
-    bool ok = true;
+    bool ok = read_knobs(run, &knobs);
     for (uint32_t n = 1; n * n <= most && ok; n *= 2) {
         EnfRoomsDef def = enf_rooms_def_default();
         def.nx = n;
         def.nz = n;
         def.furniture = 0;
         def.lights = false;
-        Cube cube = make_cube(enf_v3(0.75, 0.75, 0.75), 0.5, (double)n * def.room.x - 1.5);
-        ok = compare(run, "S1", &def, &cube);
+        def.seed = knobs.seed;
+        uint32_t row = knobs.seed > 0 ? (knobs.seed - 1) % n : n - 1;
+        EnfVec3 from = enf_v3(0.75, 0.75, 0.75 + (double)row * def.room.z);
+        Cube cube = make_cube(from, 0.5, (double)n * def.room.x - 1.5);
+        ok = compare(run, "S1", &def, &cube, &knobs);
     }
     return ok;
 }
 
 /* One table full of things: as many boxes as the paper's table has polygons; the cube goes around a place on it. */
 bool bench_s2(BenchRun *run) {
-    bool ok = true;
+    Knobs knobs;
+    bool ok = read_knobs(run, &knobs);
     uint32_t boxes = (uint32_t)bench_knob(&run->knobs, "boxes", 5745.0, 0.0, 1e5);
-    for (uint32_t n = 1; n <= 8 && ok; n *= 8) {
+    uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 64.0, 1.0, 1e4);
+    for (uint32_t n = 1; n * n <= most && ok; n *= 8) {
         EnfRoomsDef def = enf_rooms_def_default();
         def.nx = n;
         def.nz = n;
         def.furniture = boxes;
         def.lights = false;
+        def.seed = knobs.seed;
         Cube cube = make_cube(enf_v3(1.625, 0.75, 1.625), 0.03125, 0.0);
-        ok = compare(run, "S2", &def, &cube);
+        ok = compare(run, "S2", &def, &cube, &knobs);
     }
     return ok;
 }

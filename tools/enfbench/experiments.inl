@@ -10,8 +10,9 @@ BENCH(kd, bench_kd, "kd query with each SIMD variant against brute force over al
 BENCH(collide, bench_collide, "swept capsules and walking bodies against brute force over every triangle",
       "scene=palace,freedoom,buildings path=CSV frames=500 moves=100000 brute=1000")
 BENCH(S1, bench_s1, "Sudarsky & Gotsman 1996, test scene 1: a small cube in a large one, update from the root or the common ancestor",
-      "rooms=4096")
-BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table", "boxes=5745")
+      "rooms=4096 frames=108000 seed=1 policy=all")
+BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a table",
+      "rooms=64 boxes=5745 frames=108000 seed=1 policy=all")
 #define MOVERS_KNOBS \
     "rooms=1024 movers=10000 visible=0 speed=1.4 motion=free policy=all eye=walk doors=75 " \
     "door_width=1.25 polygons=0 period=64 frames=600 seed=1 check=50 budget=20"

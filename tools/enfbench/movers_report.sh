@@ -6,6 +6,7 @@
 set -eu
 bench=${1:?the enfbench program} folder=${2:?a folder for the report}
 shift 2
+command -v gnuplot >/dev/null || { echo "movers_report.sh: gnuplot (Debian: gnuplot-nox) draws the curves, and is missing" >&2; exit 1; }
 mkdir -p "$folder"
 [ $# -gt 0 ] || set -- movers million losing S1 S2 S3 S4 S5 S6 B1 B2 B3 B4
 for experiment; do
