@@ -245,7 +245,9 @@ static EnfResult begin(App *app, EnfError *error) {
     if (result != ENF_OK) {
         return result;
     }
+    const char *replay = app->options.play;
     modes_title(app);
+    app->options.play = replay;
     if (app->options.play || app->options.record) {
         result = modes_play(app, error);
     } else if (app->options.tour) {

@@ -74,8 +74,9 @@ static void show_tour_world(App *app) {
 
 void modes_title(App *app) {
     begin(app, APP_TITLE);
+    show_tour_world(app); /* first: volumes must not outlive their world */
     play_close(&app->play);
-    show_tour_world(app);
+    app->options.play = NULL; /* a new game is the person's own */
     menu_close_all(app);
     menu_open(app, MENU_TITLE);
     window_capture(app, false);
@@ -94,18 +95,18 @@ void modes_tour(App *app) {
 }
 
 EnfResult modes_play(App *app, EnfError *error) {
-    Play made;
-    EnfResult result = play_open(&made, &app->map, &app->options, error);
+    show_tour_world(app);
+    play_close(&app->play);
+    /* In place: a replay's cursor points into it. */
+    EnfResult result = play_open(&app->play, &app->map, &app->options, error);
     if (result == ENF_OK) {
-        result = scene_attach(&app->scene, game_world(made.game), game_portals(made.game), error);
+        result = scene_attach(&app->scene, game_world(app->play.game), game_portals(app->play.game), error);
     }
+    app->options.record = NULL; /* one game: the next must not overwrite it */
     if (result != ENF_OK) {
-        play_close(&made);
-        show_tour_world(app);
+        modes_title(app);
         return result;
     }
-    play_close(&app->play);
-    app->play = made;
     begin(app, APP_PLAYING);
     menu_close_all(app);
     window_capture(app, true);

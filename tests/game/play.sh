@@ -114,6 +114,23 @@ expect "Esc resumes" "mode playing menu none"
 key space
 key Escape
 expect "pause again" "menu pause"
+key Up; key Up; key Return
+expect "back to the title" "mode title menu title"
+shot "the title" 10000
+key Down; key Return
+expect "the guided tour" "mode tour menu none"
+key w; sleep 1
+key Escape
+expect "and back" "mode title menu title"
+key Return
+expect "a new game" "mode playing menu none"
+hold w 1
+key Escape
+expect "which pauses" "menu pause"
+key Down; key Return
+expect "and starts again" "mode playing menu none"
+key Escape
+expect "pause, the last time" "menu pause"
 key Up; key Return # the last row: quit
 for _ in $(seq 600); do kill -0 "$game" 2>/dev/null || break; sleep 0.1; done
 wait "$game"
@@ -130,6 +147,10 @@ check "warm frames call no heap" test "${heap:-1}" -eq 0
 check "sounds were mixed" test "${mixed:-0}" -gt 10000
 check "the recording verifies without a window" "$bin/enfreplay" verify --map "$work/palace.enfmap" "$work/night.enfreplay"
 check "and in the game" env LD_PRELOAD="$preload" "$bin/enfilade" --map "$work/palace.enfmap" --headless --play "$work/night.enfreplay"
+
+# The same in a window, fast, to its end.
+check "and in a window" timeout 120 env LD_PRELOAD="$preload" "$bin/enfilade" --map "$work/palace.enfmap" --play "$work/night.enfreplay" \
+    --speed 30 --mute --size 320x240 --frames 4000
 
 # Hostile settings: defaults, a message, and no end.
 for text in '{"fov": 1e999, "keys": 3, "volume": "loud"}' '[[[[' '' '{"keys": {"forward": "no such key", "jump": 7}}'; do
