@@ -1,6 +1,7 @@
 /* Real motion: movers of real levels along their recorded walks, the monsters of a real game with its player's own eye, and recorded
  * pedestrians. Under every policy, and whether a path is known or only a largest speed, what is drawn is what testing every object
  * draws, and nothing is late; the share of objects that no frame touched is printed. */
+#include "common/mover_csv.h"
 #include "common/path_csv.h"
 #include "harness/harness.h"
 #include "scenes/drawn.h"
@@ -17,126 +18,52 @@ enum { POLICIES = 5, OBJECTS_MAX = 512 };
 
 /* ---- recorded objects ------------------------------------------------------------------------------------------- */
 
-/* The keys of one object, and the same motion twice: as a path, and as something of which only a largest speed is known. */
+/* The same motion twice: as a path, and as something of which only a largest speed is known. */
 typedef struct Recorded {
-    long name;
-    float *times, *points, *curve;
-    uint32_t count, capacity;
     EnfMotion path;
     double max_speed;
 } Recorded;
 
 typedef struct Cast {
+    EnfMoverCsv csv;
     Recorded objects[OBJECTS_MAX];
     uint32_t count;
 } Cast;
 
-/* The number of the column `title` in the line of titles; -1 if absent. */
-static int column_of(const char *titles, const char *title) {
-    int column = 0;
-    size_t length = strlen(title);
-    for (const char *at = titles; at; column++) {
-        if (strncmp(at, title, length) == 0 && strchr(",\r\n", at[length])) {
-            return column;
-        }
-        at = strchr(at, ',');
-        at = at ? at + 1 : NULL;
-    }
-    return -1;
-}
-
-static double field_of(const char *line, int column) {
-    for (; column > 0 && line; column--) {
-        line = strchr(line, ',');
-        line = line ? line + 1 : NULL;
-    }
-    assert_non_null(line);
-    return strtod(line, NULL);
-}
-
-static void add_key(Recorded *object, double time, EnfVec3 at) {
-    if (object->count > 0 && (float)time <= object->times[object->count - 1]) {
-        return; /* two rows of one moment: the first stands */
-    }
-    if (object->count == object->capacity) {
-        object->capacity = object->capacity ? 2 * object->capacity : 16;
-        object->times = realloc(object->times, object->capacity * sizeof *object->times);
-        object->points = realloc(object->points, object->capacity * 3 * sizeof *object->points);
-        assert_true(object->times && object->points);
-    }
-    EnfVec3f p = enf_v3f(at);
-    object->times[object->count] = (float)time;
-    memcpy(&object->points[3 * object->count++], &p, sizeof p);
-}
-
-/* A curve through the keys, there and back; `origin` is added to every point. */
-static void make_path(Recorded *object, bool smooth) {
-    EnfPathMotion *path = &object->path.as.path;
-    object->path.kind = ENF_MOTION_PATH;
-    *path = (EnfPathMotion){.rest = enf_pose_identity(), .wrap = ENF_WRAP_PING_PONG};
-    float first = object->times[0];
-    for (uint32_t k = 0; k < object->count; k++) {
-        object->times[k] -= first;
-    }
-    path->seconds = object->count > 1 ? (double)object->times[object->count - 1] : 1.0;
-    path->period_ticks = (uint32_t)ceil(path->seconds * ENF_TICK_RATE);
-    path->translation = (EnfTrack){ENF_PATH_LINEAR, object->count, object->times, object->points};
-    if (smooth && object->count > 1) {
-        object->curve = malloc(9U * object->count * sizeof *object->curve);
-        assert_non_null(object->curve);
-        enf_catmull_rom(object->times, object->points, object->count, object->curve);
-        path->translation.kind = ENF_PATH_CUBIC;
-        path->translation.values = object->curve;
-    }
-    /* States are only ever asked at ticks, so the largest step between two is the largest speed. */
-    EnfPose before = enf_motion_state(&object->path, 0);
-    for (int64_t tick = 1; tick <= (int64_t)path->period_ticks; tick++) {
-        EnfPose now = enf_motion_state(&object->path, tick);
-        object->max_speed = fmax(object->max_speed, enf_length(enf_sub(now.position, before.position)) * ENF_TICK_RATE);
+/* States are only ever asked at ticks, so the largest step between two is the largest speed. */
+static double largest_speed(const EnfMotion *path) {
+    double speed = 0.0;
+    EnfPose before = enf_motion_state(path, 0);
+    for (int64_t tick = 1; tick <= (int64_t)path->as.path.period_ticks; tick++) {
+        EnfPose now = enf_motion_state(path, tick);
+        speed = fmax(speed, enf_length(enf_sub(now.position, before.position)) * ENF_TICK_RATE);
         before = now;
     }
-    object->max_speed = object->max_speed * 1.001 + 1e-6;
+    return speed * 1.001 + 1e-6;
 }
 
-/* The object of this name; rows of several may alternate. */
-static Recorded *object_of(Cast *cast, long name) {
-    for (uint32_t i = cast->count; i-- > 0;) {
-        if (cast->objects[i].name == name) {
-            return &cast->objects[i];
-        }
-    }
-    assert_true(cast->count < OBJECTS_MAX);
-    cast->objects[cast->count].name = name;
-    return &cast->objects[cast->count++];
-}
-
+/* There and back along each object's points; `shift` is added to them. */
 static void read_cast(Cast *cast, const char *file_name, EnfVec3 shift, bool smooth) {
-    char line[512];
-    FILE *file = fopen(file_name, "r");
-    assert_non_null(file);
-    assert_non_null(fgets(line, sizeof line, file));
-    int columns[5] = {column_of(line, "object"), column_of(line, "time"), column_of(line, "x"), column_of(line, "y"),
-                      column_of(line, "z")};
-    for (int i = 0; i < 5; i++) {
-        assert_true(columns[i] >= 0);
+    EnfError error = {0};
+    if (enf_mover_csv_read(&cast->csv, file_name, &error)) {
+        fail_msg("%s", error.message);
     }
-    while (fgets(line, sizeof line, file)) {
-        Recorded *object = object_of(cast, lround(field_of(line, columns[0])));
-        EnfVec3 at = enf_v3(field_of(line, columns[2]), field_of(line, columns[3]), field_of(line, columns[4]));
-        add_key(object, field_of(line, columns[1]), enf_add(at, shift));
-    }
-    fclose(file);
+    assert_in_range(cast->csv.count, 1, OBJECTS_MAX);
+    cast->count = cast->csv.count;
     for (uint32_t i = 0; i < cast->count; i++) {
-        make_path(&cast->objects[i], smooth);
+        EnfMoverRows *rows = &cast->csv.objects[i];
+        for (uint32_t k = 0; k < rows->count; k++) {
+            rows->points[3 * k] += (float)shift.x;
+            rows->points[3 * k + 1] += (float)shift.y;
+            rows->points[3 * k + 2] += (float)shift.z;
+        }
+        assert_true(enf_mover_csv_motion(rows, smooth, ENF_WRAP_PING_PONG, &cast->objects[i].path));
+        cast->objects[i].max_speed = largest_speed(&cast->objects[i].path);
     }
 }
 
 static void free_cast(Cast *cast) {
-    for (uint32_t i = 0; i < cast->count; i++) {
-        free(cast->objects[i].times);
-        free(cast->objects[i].points);
-        free(cast->objects[i].curve);
-    }
+    enf_mover_csv_free(&cast->csv);
     free(cast);
 }
 

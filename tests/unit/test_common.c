@@ -1,5 +1,6 @@
 /* What the programs share: options, reports, camera paths, PNG files. */
 #include "common/cli.h"
+#include "common/mover_csv.h"
 #include "common/path_csv.h"
 #include "common/png_file.h"
 #include "common/report.h"
@@ -213,9 +214,68 @@ static void pictures_come_back(void **state) {
     assert_int_not_equal(enf_png_write(enf_test_temp_path("none.png"), rgba, 0, 1, true, &error), ENF_OK);
 }
 
+/* ---- recorded objects --------------------------------------------------------------------------------------------- */
+
+static EnfResult read_movers(EnfMoverCsv *csv, const char *text, EnfError *error) {
+    const char *name = enf_test_temp_path("movers.csv");
+    enf_test_write_file(name, text, strlen(text));
+    memset(error, 0, sizeof *error);
+    return enf_mover_csv_read(csv, name, error);
+}
+
+static void recorded_objects(void **state) {
+    (void)state;
+    EnfMoverCsv csv;
+    EnfError error;
+    /* Two objects by turns, columns in another order, one row that comes twice. */
+    const char *text = "x,y,z,time,object,cell\n0,1,0,5,7,a\n9,9,9,0,8,b\n1,1,0,6,7,a\n5,5,5,6,7,a\n1,1,2,7,7,a\n";
+    assert_int_equal(read_movers(&csv, text, &error), ENF_OK);
+    assert_int_equal(csv.count, 2);
+    assert_true(csv.objects[0].object == 7 && csv.objects[0].count == 3 && csv.objects[1].count == 1);
+    assert_true(csv.objects[0].times[0] == 0.0F && csv.objects[0].times[2] == 2.0F);
+    EnfMotion straight, smooth;
+    assert_true(enf_mover_csv_motion(&csv.objects[0], false, ENF_WRAP_PING_PONG, &straight));
+    assert_true(enf_mover_csv_motion(&csv.objects[0], true, ENF_WRAP_LOOP, &smooth));
+    assert_int_equal(straight.as.path.period_ticks, 2 * ENF_TICK_RATE);
+    for (int64_t second = 0; second <= 2; second++) { /* both go through the points in time */
+        const float *p = csv.objects[0].points + 3 * second;
+        int64_t tick = second * ENF_TICK_RATE - (second == 2); /* a loop is at its start again at its end */
+        EnfVec3 at = enf_motion_state(&smooth, tick).position;
+        assert_true(enf_length(enf_sub(at, enf_v3((double)p[0], (double)p[1], (double)p[2]))) < (second == 2 ? 0.05 : 1e-6));
+    }
+    EnfVec3 back = enf_motion_state(&straight, 3 * ENF_TICK_RATE).position; /* there in 2 s, and half the way back */
+    assert_true(enf_length(enf_sub(back, enf_v3(1, 1, 0))) < 1e-6);
+    enf_mover_csv_free(&csv);
+}
+
+static void recorded_objects_that_are_refused(void **state) {
+    (void)state;
+    static const char *const texts[][2] = {
+        {"", "empty"},
+        {"object,time,x,y\n", "`z`"},
+        {"object,time,x,y,z\n", "no row"},
+        {"object,time,x,y,z\n1,0,0,0\n", "line 2: column `z`"},
+        {"object,time,x,y,z\n1,0,0,zero,0\n", "`y` is not a number"},
+        {"object,time,x,y,z\n1.5,0,0,0,0\n", "whole number"},
+        {"object,time,x,y,z\n1,0,1e300,0,0\n", "float"},
+        {"object,time,x,y,z\n1,0,0,0,0\n1,1e9,0,0,0\n", "too long after"},
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        EnfMoverCsv csv;
+        EnfError error;
+        assert_int_not_equal(read_movers(&csv, texts[i][0], &error), ENF_OK);
+        if (!strstr(error.message, texts[i][1])) {
+            fail_msg("%s is not in: %s", texts[i][1], error.message);
+        }
+        assert_true(csv.objects == NULL && csv.count == 0);
+    }
+}
+
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(options_are_read),    cmocka_unit_test(bad_options_are_refused), cmocka_unit_test(reports_are_json),
-    cmocka_unit_test(numbers_read_back),   cmocka_unit_test(paths_are_read),          cmocka_unit_test(bad_paths_are_refused),
+    cmocka_unit_test(recorded_objects),    cmocka_unit_test(recorded_objects_that_are_refused),
+    cmocka_unit_test(options_are_read),    cmocka_unit_test(bad_options_are_refused),
+    cmocka_unit_test(reports_are_json),    cmocka_unit_test(numbers_read_back),
+    cmocka_unit_test(paths_are_read),      cmocka_unit_test(bad_paths_are_refused),
     cmocka_unit_test(real_paths_are_read), cmocka_unit_test(pictures_come_back),
 };
 ENF_TEST_MAIN(tests)

@@ -1,179 +1,59 @@
-/* Camera paths from CSV; see path_csv.h. The columns hold plain numbers, so no quoting is understood. */
+/* Camera paths from CSV; see path_csv.h. */
 #include "common/path_csv.h"
 
-#include <math.h>
+#include "common/csv.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-/* X(field, required): the columns that are read. */
-#define PATH_COLUMNS(X) X(time, true) X(x, true) X(y, true) X(z, true) X(yaw, true) X(pitch, false) X(inside, false)
+/* X(field, required, standard): the columns that are read. */
+#define PATH_COLUMNS(X)                                                                                                        \
+    X(time, true, 0) X(x, true, 0) X(y, true, 0) X(z, true, 0) X(yaw, true, 0) X(pitch, false, 0) X(inside, false, 1)
 
 enum {
-#define COLUMN_ENUM(name, required) COLUMN_##name,
+#define COLUMN_ENUM(name, required, standard) COLUMN_##name,
     PATH_COLUMNS(COLUMN_ENUM)
 #undef COLUMN_ENUM
-        COLUMN_COUNT,
-    COLUMNS_IN_FILE_MAX = 64
+        COLUMN_COUNT
 };
-static const struct {
-    const char *name;
-    bool required;
-} columns[] = {
-#define COLUMN_ROW(name, required) {#name, required},
+
+static const EnfCsvColumn columns[] = {
+#define COLUMN_ROW(name, required, standard) {#name, required, standard},
     PATH_COLUMNS(COLUMN_ROW)
 #undef COLUMN_ROW
 };
 
-#define FILE_SIZE_MAX ((size_t)1 << 30)
+typedef struct Growing {
+    EnfPathCsv *path;
+    uint32_t capacity;
+} Growing;
 
-typedef struct Reader {
-    const char *at, *end;
-    uint32_t line;
-    int place[COLUMNS_IN_FILE_MAX]; /* column in the file → COLUMN_*, or -1 */
-    uint32_t place_count;
-} Reader;
-
-/* The next field of the line at *at, without blanks around it; false at the line's end. */
-static bool next_field(const char **at, const char *end, const char **field, size_t *length) {
-    if (!*at) {
-        return false;
-    }
-    const char *comma = memchr(*at, ',', (size_t)(end - *at));
-    const char *stop = comma ? comma : end;
-    const char *first = *at;
-    while (first < stop && (*first == ' ' || *first == '\t')) {
-        first++;
-    }
-    while (stop > first && (stop[-1] == ' ' || stop[-1] == '\t' || stop[-1] == '\r')) {
-        stop--;
-    }
-    *field = first;
-    *length = (size_t)(stop - first);
-    *at = comma ? comma + 1 : NULL;
-    return true;
-}
-
-/* The next line that is not empty or a comment. */
-static bool next_line(Reader *reader, const char **line, const char **line_end) {
-    while (reader->at < reader->end) {
-        const char *feed = memchr(reader->at, '\n', (size_t)(reader->end - reader->at));
-        *line = reader->at;
-        *line_end = feed ? feed : reader->end;
-        reader->at = feed ? feed + 1 : reader->end;
-        reader->line++;
-        const char *at = *line, *field;
-        size_t length;
-        if (**line != '#' && next_field(&at, *line_end, &field, &length) && (length > 0 || at)) {
-            return true;
+static EnfResult add_row(void *user, uint32_t line, const double *values, EnfError *error) {
+    Growing *growing = user;
+    EnfPathCsv *path = growing->path;
+    (void)line;
+    if (path->count == growing->capacity) {
+        uint32_t capacity = growing->capacity ? growing->capacity * 2 : 1024;
+        EnfPathRow *grown = realloc(path->rows, capacity * sizeof *grown);
+        if (!grown) {
+            return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory");
         }
+        path->rows = grown;
+        growing->capacity = capacity;
     }
-    return false;
-}
-
-static EnfResult read_header(Reader *reader, EnfError *error) {
-    const char *line, *line_end, *field;
-    size_t length;
-    bool found[COLUMN_COUNT] = {false};
-    if (!next_line(reader, &line, &line_end)) {
-        return enf_error_set(error, ENF_ERROR_FORMAT, UINT64_MAX, "the file is empty");
-    }
-    while (next_field(&line, line_end, &field, &length)) {
-        if (reader->place_count == COLUMNS_IN_FILE_MAX) {
-            return enf_error_set(error, ENF_ERROR_SIZE, UINT64_MAX, "more than %d columns", COLUMNS_IN_FILE_MAX);
-        }
-        int place = -1;
-        for (int i = 0; i < COLUMN_COUNT; i++) {
-            if (strlen(columns[i].name) == length && memcmp(columns[i].name, field, length) == 0 && !found[i]) {
-                place = i;
-                found[i] = true;
-            }
-        }
-        reader->place[reader->place_count++] = place;
-    }
-    for (int i = 0; i < COLUMN_COUNT; i++) {
-        if (columns[i].required && !found[i]) {
-            return enf_error_set(error, ENF_ERROR_FORMAT, UINT64_MAX, "the header has no column `%s`", columns[i].name);
-        }
-    }
+    path->rows[path->count++] = (EnfPathRow){values[COLUMN_time],       values[COLUMN_x],   values[COLUMN_y],
+                                             values[COLUMN_z],          values[COLUMN_yaw], values[COLUMN_pitch],
+                                             values[COLUMN_inside] != 0};
     return ENF_OK;
-}
-
-static bool parse_field(const char *field, size_t length, double *value) {
-    char text[64], *stop;
-    if (length == 0 || length >= sizeof text) {
-        return false;
-    }
-    memcpy(text, field, length);
-    text[length] = '\0';
-    *value = strtod(text, &stop);
-    return *stop == '\0' && isfinite(*value);
-}
-
-static EnfResult read_row(const Reader *reader, const char *line, const char *line_end, EnfPathRow *row, EnfError *error) {
-    double values[COLUMN_COUNT] = {0};
-    values[COLUMN_inside] = 1;
-    const char *field;
-    size_t length;
-    uint32_t column = 0;
-    for (; column < reader->place_count && next_field(&line, line_end, &field, &length); column++) {
-        int place = reader->place[column];
-        if (place >= 0 && !parse_field(field, length, &values[place])) {
-            return enf_error_set(error, ENF_ERROR_FORMAT, UINT64_MAX, "line %u: `%s` is not a number: %.*s", reader->line,
-                                 columns[place].name, (int)(length < 40 ? length : 40), field);
-        }
-    }
-    for (; column < reader->place_count; column++) {
-        int place = reader->place[column];
-        if (place >= 0 && columns[place].required) {
-            return enf_error_set(error, ENF_ERROR_FORMAT, UINT64_MAX, "line %u: column `%s` is missing", reader->line,
-                                 columns[place].name);
-        }
-    }
-    *row = (EnfPathRow){values[COLUMN_time], values[COLUMN_x],     values[COLUMN_y],          values[COLUMN_z],
-                        values[COLUMN_yaw],  values[COLUMN_pitch], values[COLUMN_inside] != 0};
-    return ENF_OK;
-}
-
-static EnfResult read_rows(Reader *reader, EnfPathCsv *path, EnfError *error) {
-    uint32_t capacity = 0;
-    const char *line, *line_end;
-    EnfResult result = read_header(reader, error);
-    while (result == ENF_OK && next_line(reader, &line, &line_end)) {
-        if (path->count == capacity) {
-            uint32_t grown_capacity = capacity ? capacity * 2 : 1024;
-            EnfPathRow *grown = realloc(path->rows, grown_capacity * sizeof *grown);
-            if (!grown) {
-                return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory");
-            }
-            path->rows = grown;
-            capacity = grown_capacity;
-        }
-        result = read_row(reader, line, line_end, &path->rows[path->count], error);
-        path->count += result == ENF_OK;
-    }
-    return result;
 }
 
 EnfResult enf_path_csv_read(EnfPathCsv *path, const char *file_name, EnfError *error) {
-    EnfFile file;
     memset(path, 0, sizeof *path);
-    EnfResult result = enf_file_read(&file, file_name, FILE_SIZE_MAX, NULL, error);
-    if (result != ENF_OK) {
-        return result;
-    }
-    const char *text = file.size ? (const char *)file.data : ""; /* an empty file has no data */
-    Reader reader = {text, text + file.size, 0, {0}, 0};
-    if (file.size >= 3 && memcmp(file.data, "\xef\xbb\xbf", 3) == 0) {
-        reader.at += 3;
-    }
-    result = read_rows(&reader, path, error);
-    if (result == ENF_OK && path->count == 0) {
-        result = enf_error_set(error, ENF_ERROR_FORMAT, UINT64_MAX, "no row below the header");
-    }
-    enf_file_free(&file);
+    Growing growing = {path, 0};
+    EnfCsvTable table = {columns, COLUMN_COUNT, add_row, &growing};
+    EnfResult result = enf_csv_read(file_name, &table, error);
     if (result != ENF_OK) {
         enf_path_csv_free(path);
-        enf_error_file(error, result, file_name);
     }
     return result;
 }
