@@ -250,6 +250,8 @@ static void put_back(Game *game) {
 }
 
 void game_restart(Game *game) {
+    enf_world_advance(game->world,
+                      1); /* its list of changes is of one tick: restarts without end would lengthen it without end */
     put_back(game);
     game->begin = sim_world_tick(game);
     enf_collider_reset(game->collider);

@@ -316,6 +316,9 @@ static void test_no_heap_in_warm_ticks_and_restarts(void **state) {
             bytes = play.count.bytes;
         }
     }
+    for (int i = 0; i < 1000; i++) {
+        game_restart(play.game);
+    }
     assert_int_equal(play.count.calls, calls);
     assert_int_equal(play.count.bytes, bytes);
     close_play(&play);
