@@ -313,15 +313,18 @@ static void what_moves_is_drawn_and_verified(void **state) {
     char arguments[COMMAND_SIZE];
     const char *map = write_map("moving.enfmap", false, true, &clusters), *path = write_path(41);
     need_context(map, "any");
-    const char *out = enf_test_temp_path("out.txt");
+    const char *out = enf_test_temp_path("out.txt"), *movers = enf_test_temp_path("movers.csv");
+    static const char recorded[] = "object,time,x,y,z\n0,0,1,0,1\n1,0,2,0,2\n0,2,3,0,8\n0,5,8,0,8\n";
+    enf_test_write_file(movers, recorded, strlen(recorded));
     for (size_t i = 0; i < sizeof policies / sizeof *policies; i++) {
-        snprintf(arguments, sizeof arguments, "'%s' --path '%s' --verify --size 160x120 --quiet --tick 60 --dbv %s", map, path,
-                 policies[i]);
+        snprintf(arguments, sizeof arguments,
+                 "'%s' --path '%s' --verify --size 160x120 --quiet --tick 60 --dbv %s --movers '%s'", map, path, policies[i],
+                 movers);
         view(arguments, out); /* a T-junction may cost a pixel: see above */
         size_t size;
         char *text = (char *)enf_test_read_file(out, &size);
         assert_true(count_after(text, "\"lost_views\": ") <= 1);
-        assert_int_equal(count_after(text, "\"objects\": "), CRATES + 2);
+        assert_int_equal(count_after(text, "\"objects\": "), CRATES + 2 + 2);
         assert_true(count_after(text, "\"objects_drawn_mean\": ") > 0);
         if (i > 0) {
             assert_int_equal(count_after(text, "\"late\": "), 0);

@@ -7,12 +7,30 @@
 /* A door opens every eight seconds and shuts half way, each at its own time. */
 enum { DOOR_CYCLE = 480, DOOR_SHIFT = 37 };
 
+/* As large as a person, and without a mesh: only volumes show it. */
+static EnfResult add_recorded(Viewer *viewer, const char *file_name, EnfError *error) {
+    EnfResult result = enf_mover_csv_read(&viewer->recorded, file_name, error);
+    for (uint32_t i = 0; i < viewer->recorded.count && result == ENF_OK; i++) {
+        EnfObjectDef def = enf_object_def_default();
+        def.local.min = enf_v3(-0.4, 0.0, -0.4);
+        def.local.max = enf_v3(0.4, 1.75, 0.4);
+        def.mesh = ENF_NONE;
+        bool made = enf_mover_csv_motion(&viewer->recorded.objects[i], true, ENF_WRAP_PING_PONG, &def.motion) &&
+                    enf_world_add(viewer->world, &def, NULL).generation != 0;
+        result = made ? ENF_OK : enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "out of memory");
+    }
+    return result;
+}
+
 EnfResult life_open(Viewer *viewer, EnfError *error) {
     const EnfMap *map = &viewer->map;
     viewer->frame_evaluated = UINT64_MAX;
     EnfResult result = enf_world_create(&viewer->world, map, map->movers_count + 1, NULL, error);
     result = result == ENF_OK ? enf_world_populate(viewer->world, error) : result;
-    if (result == ENF_OK && viewer->options->dbv != DBV_OFF && map->movers_count > 0) {
+    if (result == ENF_OK && viewer->options->movers) {
+        result = add_recorded(viewer, viewer->options->movers, error);
+    }
+    if (result == ENF_OK && viewer->options->dbv != DBV_OFF && enf_world_object_limit(viewer->world) > 0) {
         EnfDbvDef def = enf_dbv_def_default();
         def.policy = (EnfDbvPolicy)(viewer->options->dbv - 1);
         result = enf_dbv_create(&viewer->dbv, viewer->world, &def, NULL, error);
@@ -23,6 +41,7 @@ EnfResult life_open(Viewer *viewer, EnfError *error) {
 void life_close(Viewer *viewer) {
     enf_dbv_destroy(viewer->dbv);
     enf_world_destroy(viewer->world);
+    enf_mover_csv_free(&viewer->recorded);
 }
 
 static bool is_door(const EnfMover *mover) {

@@ -117,6 +117,8 @@ static EnfCliResult parse(Options *o, int argc, char **argv) {
         {"--tick", NULL, ENF_OPTION_NUMBER, &o->tick, "N", NULL, "the world's time, 1/60 s; of a path: at its time 0 (0)"},
         {"--doors", NULL, ENF_OPTION_CHOICE, &o->doors, NULL, "rest|swing|close",
          "stay shut; open and shut in turn (default); and close their portals while shut"},
+        {"--movers", NULL, ENF_OPTION_TEXT, &o->movers, "FILE.csv", NULL,
+         "also what moves through recorded points: object,time,x,y,z"},
         {"--cell", NULL, ENF_OPTION_TEXT, &o->cell_name, "NAME", NULL, "the eye's cell, instead of locating it"},
         {"--context", NULL, ENF_OPTION_CHOICE, &o->context, NULL, "any|egl|osmesa", "default any: EGL, else OSMesa"},
         {"--output", "-o", ENF_OPTION_TEXT, &o->output, "OUT.png", NULL, "the picture"},

@@ -212,7 +212,7 @@ static void report_counters(EnfReport *report, const Shot *shot) {
     enf_report_count(report, "ranges", shot->list->range_count);
     enf_report_end_object(report);
     enf_report_count(report, "tick", (uint64_t)enf_world_tick(shot->viewer->world));
-    enf_report_count(report, "objects", shot->viewer->map.movers_count);
+    enf_report_count(report, "objects", enf_world_object_limit(shot->viewer->world));
     viewer_report_dbv(shot->viewer, report, "dbv");
 }
 

@@ -104,8 +104,8 @@ void tally_print_summary(Tally *tally, const Viewer *viewer, bool pictures) {
     }
     enf_report_number(&line, "vis_us_median", viewer_quantile(tally->vis_us, n, 0.5));
     enf_report_number(&line, "vis_us_p99", viewer_quantile(tally->vis_us, n, 0.99));
-    if (viewer->map.movers_count > 0) {
-        enf_report_count(&line, "objects", viewer->map.movers_count);
+    if (enf_world_object_limit(viewer->world) > 0) {
+        enf_report_count(&line, "objects", enf_world_object_limit(viewer->world));
         enf_report_number(&line, "objects_drawn_mean", mean(tally->movers, n));
         viewer_report_dbv(viewer, &line, "dbv");
     }

@@ -4,6 +4,7 @@
 
 #include <enfilade/gl.h>
 
+#include "common/mover_csv.h"
 #include "common/report.h"
 
 /** Near plane of every picture, metres: nearer than any eye comes to a wall. Small, since what it cuts away in front would
@@ -26,7 +27,7 @@ enum { DBV_OFF };
 enum { DOORS_REST, DOORS_SWING, DOORS_CLOSE };
 
 typedef struct Options {
-    const char *map, *output, *ids, *stats, *path, *cells, *cell_name;
+    const char *map, *output, *ids, *stats, *path, *cells, *cell_name, *movers;
     bool has_eye, has_freeze, verify, raw_ids, quiet;
     Pose pose, freeze;
     double roll_deg, fov_y_deg;
@@ -43,7 +44,8 @@ typedef struct Viewer {
     EnfPortals portals;
     EnfVis *vis, *vis_all; /**< of the chosen traversal, and of everything */
     EnfDraw *draw, *draw_all;
-    EnfWorld *world;               /**< the map's movers */
+    EnfMoverCsv recorded;          /**< of --movers */
+    EnfWorld *world;               /**< the map's movers, then those */
     EnfDbvIndex *dbv;              /**< over them, or NULL: --dbv off, or nothing moves */
     EnfDbvCounters frame_counters; /**< of the frame that --stats tells of */
     uint64_t frame_evaluated;      /**< motions evaluated in it; UINT64_MAX: none was counted */
