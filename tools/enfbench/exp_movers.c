@@ -177,7 +177,9 @@ static bool turn(const MoversScene *scene, Runner *runner, uint32_t frame, Mover
         if (copy == NULL) {
             return false;
         }
-        memcpy(copy, list, count * sizeof *copy);
+        if (count > 0) { /* an empty list may be no array at all */
+            memcpy(copy, list, count * sizeof *copy);
+        }
         const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[frame]);
         bool ok = bench_movers_windows(scene, set, windows);
         runner->lost += ok ? (double)lost(scene, frame, windows, copy, count) : 0.0;
