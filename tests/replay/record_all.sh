@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # record_all.sh [BIN [PATTERN]]: makes the recordings of recordings.list anew, with the programs of the folder BIN (build/check/bin),
-# and verifies them: after a change of a map, of the simulation or of the format. PATTERN: only names that match it (grep -E).
+# after a change of a map, of the simulation or of the format. PATTERN: only names that match it (grep -E).
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -29,8 +29,7 @@ record() {
         [ -f "$word" ] && path=$word
         options+=("$word")
     done
-    "$bin/enfreplay" record --map "$map" --title "$title" "${options[@]}" -o "$here/$name.enfreplay" &&
-        "$bin/enfreplay" verify --quiet --maps "$maps" "$here/$name.enfreplay"
+    "$bin/enfreplay" record --map "$map" --title "$title" "${options[@]}" -o "$here/$name.enfreplay"
 }
 
 while IFS='|' read -r name map options title; do

@@ -22,7 +22,7 @@ typedef struct Options {
     uint32_t every, size[2];                     /* run */
     double fov_y_deg, speed;                     /* run */
     int cull, dbv, context;                      /* run: EnfCull, DBV_..., EnfContextKind */
-    bool builder, run, salvage, force, quiet, json;
+    bool builder, run, fly, use, salvage, force, quiet, json;
 } Options;
 
 /** --dbv: off, or 1 + EnfDbvPolicy. */

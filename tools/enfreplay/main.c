@@ -119,8 +119,11 @@ static EnfCliResult parse_record(Options *o, Arguments arguments) {
     const EnfOption options[] = {
         {"--map", "-m", ENF_OPTION_TEXT, &o->map, "FILE.enfmap", NULL, "the map; needed"},
         {"--script", "-s", ENF_OPTION_TEXT, &o->script, "FILE", NULL, "inputs, or a script for the game's bot"},
-        {"--path", NULL, ENF_OPTION_TEXT, &o->path, "PATH.csv", NULL, "walk along a camera path: time,x,y,z,yaw,pitch"},
+        {"--path", NULL, ENF_OPTION_TEXT, &o->path, "PATH.csv", NULL,
+         "walk along a camera path (time,x,y,z,yaw,pitch); with --ticks again and again"},
         {"--run", NULL, ENF_OPTION_FLAG, &o->run, NULL, NULL, "--path runs"},
+        {"--fly", NULL, ENF_OPTION_FLAG, &o->fly, NULL, NULL, "--path goes straight, through walls"},
+        {"--use", NULL, ENF_OPTION_FLAG, &o->use, NULL, NULL, "--fly looks as each row says and uses what is there"},
         {"--mash", NULL, ENF_OPTION_TEXT, &o->mash, "SEED", NULL, "random input"},
         {"--builder", NULL, ENF_OPTION_FLAG, &o->builder, NULL, NULL, "--mash also presses noclip and fly"},
         {"--ticks", NULL, ENF_OPTION_COUNT, &o->ticks, "N", NULL, "stop after N ticks (--mash: 3600)"},

@@ -45,7 +45,14 @@ static bool source_next(Source *source, uint64_t tick, EnfInput *input, EnfResul
         return true;
     case SOURCE_PATH: {
         SimEye eye = sim_eye(source->session->sim);
-        return !sim_is_over(source->session->sim) && steer_next(&source->steer, &eye, input);
+        if (sim_is_over(source->session->sim)) {
+            return false;
+        }
+        if (steer_next(&source->steer, &eye, input)) {
+            return true;
+        }
+        source->steer.next = 0; /* with --ticks it goes on from the beginning */
+        return source->limit != UINT64_MAX && steer_next(&source->steer, &eye, input);
     }
     case SOURCE_REPLAY: {
         const EnfReplayTick *recorded = enf_replay_next(&source->cursor);
@@ -96,7 +103,11 @@ static EnfResult open_source(Source *source, Session *session, const Options *op
     if (options->path) {
         source->kind = SOURCE_PATH;
         source->session = session;
-        return steer_open(&source->steer, options->path, options->run, error);
+        EnfResult result = steer_open(&source->steer, options->path, error);
+        source->steer.run = options->run;
+        source->steer.fly = options->fly;
+        source->steer.use = options->use;
+        return result;
     }
     uint64_t seed;
     if (!parse_u64(options->mash, &seed)) {

@@ -9,10 +9,9 @@
 static const double ARRIVED = 0.7, FLOOR = 2.2, STRIDE = 1.5, TURN_DEG = 9.0, CONE_DEG = 50.0, NEARER = 0.02;
 enum { USE_AFTER = 15, SIDESTEP_AFTER = 45, SIDESTEP_TICKS = 30, JUMP_AFTER = 170, GIVE_UP_AFTER = 260, STOP_AFTER = 24 };
 
-EnfResult steer_open(Steer *steer, const char *path, bool run, EnfError *error) {
+EnfResult steer_open(Steer *steer, const char *path, EnfError *error) {
     memset(steer, 0, sizeof *steer);
     steer->nearest = HUGE_VAL;
-    steer->run = run;
     return enf_path_csv_read(&steer->path, path, error);
 }
 
@@ -79,12 +78,62 @@ static double turn_to(const SimEye *eye, EnfVec3 way) {
     return remainder(wanted - eye->yaw_deg, 360.0);
 }
 
+static int32_t turn_by(double degrees) {
+    double step = degrees > TURN_DEG ? TURN_DEG : degrees < -TURN_DEG ? -TURN_DEG : degrees;
+    return (int32_t)lround(step * ENF_INPUT_DEGREE);
+}
+
+/* At a row: looks where it says and presses `use` once. True when that is done. */
+static bool use_there(const Steer *steer, const SimEye *eye, EnfInput *input) {
+    const EnfPathRow *row = &steer->path.rows[steer->next];
+    double yaw = remainder(row->yaw_deg - eye->yaw_deg, 360.0), pitch = row->pitch_deg - eye->pitch_deg;
+    input->yaw = turn_by(yaw);
+    input->pitch = turn_by(pitch);
+    if (fabs(yaw) < 0.5 && fabs(pitch) < 0.5) {
+        input->buttons = ENF_BUTTON_USE;
+        return true;
+    }
+    return false;
+}
+
+/* Straight at one row after another, through walls. */
+static bool fly_next(Steer *steer, const SimEye *eye, EnfInput *input) {
+    if (!steer->begun) {
+        steer->begun = true;
+        input->buttons = ENF_BUTTON_NOCLIP;
+        return true;
+    }
+    while (steer->next < steer->path.count && enf_length(enf_sub(row_at(steer, steer->next), eye->eye_ws)) < ARRIVED / 2.0) {
+        if (steer->use && !use_there(steer, eye, input)) {
+            return true;
+        }
+        steer->next++;
+        if (steer->use) {
+            return true;
+        }
+    }
+    if (steer->next >= steer->path.count) {
+        return false;
+    }
+    EnfVec3 way = enf_sub(row_at(steer, steer->next), eye->eye_ws);
+    double yaw = across(way) > 0.01 ? turn_to(eye, way) : 0.0;
+    double pitch = enf_atan2(way.y, across(way)) * (180.0 / 3.14159265358979323846) - eye->pitch_deg;
+    bool aimed = fabs(yaw) < 8.0 && fabs(pitch) < 8.0;
+    input->yaw = turn_by(yaw);
+    input->pitch = turn_by(pitch);
+    input->forward = !aimed ? 0 : enf_length(way) > 3.0 * ARRIVED ? 32767 : 9000;
+    return true;
+}
+
 bool steer_next(Steer *steer, const SimEye *eye, EnfInput *input) {
+    memset(input, 0, sizeof *input);
+    if (steer->fly) {
+        return fly_next(steer, eye, input);
+    }
     if (!steer->begun) {
         begin(steer, eye->eye_ws);
     }
     advance(steer, eye->eye_ws);
-    memset(input, 0, sizeof *input);
     if (steer->next >= steer->path.count) {
         return false;
     }
@@ -96,8 +145,7 @@ bool steer_next(Steer *steer, const SimEye *eye, EnfInput *input) {
     } else {
         steer->vain++;
     }
-    double step = turn > TURN_DEG ? TURN_DEG : turn < -TURN_DEG ? -TURN_DEG : turn;
-    input->yaw = (int32_t)lround(step * ENF_INPUT_DEGREE);
+    input->yaw = turn_by(turn);
     input->pitch = -(int32_t)lround(remainder(eye->pitch_deg, 360.0) * 0.1 * ENF_INPUT_DEGREE);
     input->forward = fabs(turn) < CONE_DEG ? 32767 : 0;
     input->buttons = steer->run && fabs(turn) < CONE_DEG / 3.0 && distance > 2.0 * ARRIVED ? ENF_BUTTON_RUN : 0;
