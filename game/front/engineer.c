@@ -257,10 +257,9 @@ static void draw_plan(App *app) {
 static void help(App *app) {
     Canvas *c = &app->canvas;
     CanvasStyle style = canvas_style(9.5 * c->unit, 0xffa0a8b0u);
-    canvas_text(
-        c, &style, 16.0 * c->unit, c->height - 10.0 * c->unit,
-        "F1 counters  F2 plan, portals, windows  F3 freeze  F4 volumes  F5 kd-trees  F6 wireframe  F7 culling  F8 compare"
-        "  F9 noclip  F10 fly  F11 full screen  F12 picture");
+    canvas_text(c, &style, 16.0 * c->unit, c->height - 10.0 * c->unit,
+                "F1 counters  F2 plan, windows  F3 freeze  F4 volumes  F5 kd-trees  F6 wireframe  F7 culling  F8 compare"
+                "  F9 noclip  F10 fly  F11 screen  F12 picture");
 }
 
 void engineer_draw(App *app) {

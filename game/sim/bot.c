@@ -154,7 +154,7 @@ static GameBotNews for_seconds(const GameBot *bot, double seconds) {
 }
 
 static GameBotNews expect(const GameBot *bot, const BotCommand *command, const char **why) {
-    *why = "the game is not so in time";
+    *why = bot->game->score.phase == GAME_LOST ? "a guard has caught the bot" : "the game is not so in time";
     if (bot->game->score.phase == command->index) {
         return GAME_BOT_DONE;
     }
