@@ -149,6 +149,66 @@ static void test_cubic_bounds_are_tight(void **state) {
     }
 }
 
+/* The blossom of a cubic with these Bernstein coefficients: the coefficients over [t, u] are its values at (t,t,t), (t,t,u), (t,u,u)
+ * and (u,u,u). */
+static double blossom(const double b[4], double t, double u, double v) {
+    double c[3];
+    for (int i = 0; i < 3; i++) {
+        c[i] = b[i] + (b[i + 1] - b[i]) * t;
+    }
+    double d0 = c[0] + (c[1] - c[0]) * u;
+    double d1 = c[1] + (c[2] - c[1]) * u;
+    return d0 + (d1 - d0) * v;
+}
+
+/* Intervals that hold the curve between two moments, piece by piece, at every moment and not at ticks alone: the bound must hold all of
+ * each, but for what its coefficients stray from the chord (which the curve does not). */
+static void check_pieces(const double b[4], double from, double to, double low, double high) {
+    enum { PIECES = 32 };
+    for (int i = 0; i < PIECES; i++) {
+        double t = from + (to - from) * i / PIECES;
+        double u = from + (to - from) * (i + 1) / PIECES;
+        const double p[4] = {blossom(b, t, t, t), blossom(b, t, t, u), blossom(b, t, u, u), blossom(b, u, u, u)};
+        double stray = fmax(fabs(p[1] - (2.0 * p[0] + p[3]) / 3.0), fabs(p[2] - (p[0] + 2.0 * p[3]) / 3.0)) + 1e-9;
+        double least = fmin(fmin(p[0], p[1]), fmin(p[2], p[3]));
+        double most = fmax(fmax(p[0], p[1]), fmax(p[2], p[3]));
+        if (low > least + stray || high < most - stray) {
+            fail_msg("[%.17g, %.17g] does not hold [%.17g, %.17g] of the piece [%g, %g]", low, high, least, most, t, u);
+        }
+    }
+}
+
+static void test_bounds_hold_interval_evaluation(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(7);
+    const EnfBox3 point = {{0, 0, 0}, {0, 0, 0}};
+    for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
+        float times[2] = {0.0F, 1.0F};
+        float values[18];
+        for (int i = 0; i < 18; i++) {
+            values[i] = enf_test_float(&rng, -5.0F, 5.0F);
+        }
+        EnfMotion motion;
+        memset(&motion, 0, sizeof motion);
+        motion.kind = ENF_MOTION_PATH;
+        motion.as.path.rest = enf_pose_identity();
+        motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
+        motion.as.path.seconds = 1.0;
+        motion.as.path.period_ticks = 1000;
+        int64_t tick0 = enf_test_below(&rng, 1000);
+        int64_t tick1 = tick0 + 1 + enf_test_below(&rng, (uint32_t)(1000 - tick0));
+        EnfBox3 box = enf_motion_bound(&motion, &point, tick0, tick1);
+        const double low[3] = {box.min.x, box.min.y, box.min.z};
+        const double high[3] = {box.max.x, box.max.y, box.max.z};
+        for (int c = 0; c < 3; c++) {
+            double p0 = (double)values[3 + c];
+            double p1 = (double)values[12 + c];
+            const double b[4] = {p0, p0 + (double)values[6 + c] / 3.0, p1 - (double)values[9 + c] / 3.0, p1};
+            check_pieces(b, (double)tick0 / 1000.0, (double)tick1 / 1000.0, low[c], high[c]);
+        }
+    }
+}
+
 /* The state does not depend on what was asked before, nor on how long the world has run. */
 static void test_states_are_pure(void **state) {
     (void)state;
@@ -254,6 +314,7 @@ static void test_catmull_rom(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_path_bounds_hold_every_state),
     cmocka_unit_test(test_cubic_bounds_are_tight),
+    cmocka_unit_test(test_bounds_hold_interval_evaluation),
     cmocka_unit_test(test_states_are_pure),
     cmocka_unit_test(test_doors),
     cmocka_unit_test(test_free_objects_stay_within_their_speed),
