@@ -30,4 +30,4 @@ set_tests_properties(tally.self PROPERTIES LABELS "fast;style" TIMEOUT 60)
 # What scripts make is what is committed: the sounds, and the palace by its own rules.
 add_test(NAME assets.sounds COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/assets/sounds/synth.py --check)
 add_test(NAME assets.palace COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/assets/palace/check.py)
-set_tests_properties(assets.sounds assets.palace PROPERTIES LABELS "fast" TIMEOUT 600)
+set_tests_properties(assets.sounds assets.palace PROPERTIES LABELS "fast;style" TIMEOUT 600)
