@@ -122,21 +122,6 @@ bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item) {
     return true;
 }
 
-bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count) {
-    void *volumes = index->volumes;
-    if (!enf_dbv_enlarge(index, &volumes, index->volume_count, &index->volume_capacity, count, sizeof *index->volumes)) {
-        return false;
-    }
-    index->volumes = volumes;
-    if (!enf_dbv_wheel_reserve(index, count)) {
-        return false;
-    }
-    for (; index->volume_count < count; index->volume_count++) {
-        index->volumes[index->volume_count].wheel_at = ENF_NONE;
-    }
-    return true;
-}
-
 bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
     void *exposures = index->exposures;
     if (!enf_dbv_enlarge(index, &exposures, index->exposure_count, &index->exposure_capacity, count,
@@ -144,6 +129,37 @@ bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
         return false;
     }
     index->exposures = exposures;
+    return true;
+}
+
+/* Room in the lists of a frame, so that frames of worlds of some thousand objects ask no heap; larger worlds' lists grow, doubling, with
+ * what a frame ever saw. */
+static bool reserve_lists(EnfDbvIndex *index, uint32_t count) {
+    enum { LISTED = 4096 };
+    uint32_t room = count < LISTED ? count : LISTED;
+    EnfDbvList *lists[] = {&index->due, &index->candidates, &index->drawn};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+        void *items = lists[i]->items;
+        if (!enf_dbv_enlarge(index, &items, lists[i]->count, &lists[i]->capacity, room, sizeof *lists[i]->items)) {
+            return false;
+        }
+        lists[i]->items = items;
+    }
+    return enf_dbv_reserve_exposures(index, room);
+}
+
+bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count) {
+    void *volumes = index->volumes;
+    if (!enf_dbv_enlarge(index, &volumes, index->volume_count, &index->volume_capacity, count, sizeof *index->volumes)) {
+        return false;
+    }
+    index->volumes = volumes;
+    if (!enf_dbv_wheel_reserve(index, count) || !reserve_lists(index, count)) {
+        return false;
+    }
+    for (; index->volume_count < count; index->volume_count++) {
+        index->volumes[index->volume_count].wheel_at = ENF_NONE;
+    }
     return true;
 }
 
