@@ -65,15 +65,12 @@ EnfVec3 sim_look(double yaw_deg, double pitch_deg) {
     return enf_v3(-enf_sin(yaw) * enf_cos(pitch), enf_sin(pitch), -enf_cos(yaw) * enf_cos(pitch));
 }
 
-/* ---- where it begins ---------------------------------------------------------------------------------------------- */
-
-static double yaw_of(const EnfEntity *entity) {
-    const float *q = entity->rotation;
-    double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
-    /* Where the entity's own -z looks. */
-    double dx = -2.0 * (x * z + w * y), dz = -(1.0 - 2.0 * (x * x + y * y));
+double sim_yaw(EnfQuat q) {
+    double dx = -2.0 * (q.x * q.z + q.w * q.y), dz = -(1.0 - 2.0 * (q.x * q.x + q.y * q.y));
     return enf_atan2(-dx, -dz) * (180.0 / ENF_PI);
 }
+
+/* ---- where it begins ---------------------------------------------------------------------------------------------- */
 
 static uint32_t largest_cell(const EnfMap *map) {
     uint32_t best = 0;
@@ -103,7 +100,9 @@ static void find_spawn(Game *game) {
     if (at) {
         double drop = start ? 0.0 : 1.6;
         game->spawn = enf_v3(at->translation[0], at->translation[1] - drop, at->translation[2]);
-        game->spawn_yaw = (int32_t)(yaw_of(at) * DEGREE);
+        const float *q = at->rotation;
+        EnfQuat turn = {(double)q[0], (double)q[1], (double)q[2], (double)q[3]};
+        game->spawn_yaw = (int32_t)(sim_yaw(turn) * DEGREE);
     } else if (map->cells_count > 0) {
         const EnfCell *c = &map->cells[largest_cell(map)];
         game->spawn = enf_v3(c->origin[0] + 0.5 * (double)(c->min[0] + c->max[0]), c->origin[1] + (double)c->min[1] + 0.1,

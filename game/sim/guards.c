@@ -21,19 +21,13 @@ enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 
 /* ---- start ------------------------------------------------------------------------------------------------------------ */
 
-static double yaw_of_pose(const EnfPose *pose) {
-    EnfQuat q = pose->rotation;
-    double dx = -2.0 * (q.x * q.z + q.w * q.y), dz = -(1.0 - 2.0 * (q.x * q.x + q.y * q.y));
-    return enf_atan2(-dx, -dz) * (180.0 / ENF_PI);
-}
-
 static void follow_pose(Game *game, SimGuard *guard) {
     EnfPose pose = enf_world_pose(game->world, guard->object.index);
     EnfVec3 eye = enf_v3(0.0, EYE_HEIGHT, 0.0), from = enf_add(guard->body.position, eye), to = enf_add(pose.position, eye);
     bool known = guard->body.cell != ENF_NONE && enf_length(enf_sub(to, from)) < 3.0;
     guard->body.cell = known ? enf_map_track(game->map, guard->body.cell, from, to) : enf_map_locate(game->map, to);
     guard->body.position = pose.position;
-    guard->yaw_deg = yaw_of_pose(&pose);
+    guard->yaw_deg = sim_yaw(pose.rotation);
 }
 
 void sim_guards_start(Game *game) {

@@ -146,6 +146,8 @@ void sim_say(Game *game, const char *text);
 void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, double loudness);
 /** Degrees as the player looks: a unit vector. */
 EnfVec3 sim_look(double yaw_deg, double pitch_deg);
+/** Degrees: where something turned so looks with its own -z, level. */
+double sim_yaw(EnfQuat turn);
 
 /* ---- the parts ------------------------------------------------------------------------------------------------------- */
 

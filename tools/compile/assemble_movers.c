@@ -66,8 +66,7 @@ static void free_lists(EnfMovers *movers) {
 
 /* ---- one mover -------------------------------------------------------------------------------------------------- */
 
-/* The entity's floats, as the run time will read them. */
-static EnfAffine rest_of(const EnfEntity *e) {
+EnfAffine enf_mover_rest(const EnfEntity *e) {
     EnfQuat q = {(double)e->rotation[0], (double)e->rotation[1], (double)e->rotation[2], (double)e->rotation[3]};
     double size = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     q = (EnfQuat){q.x / size, q.y / size, q.z / size, q.w / size};
@@ -159,7 +158,7 @@ static bool add_node(EnfMovers *movers, uint32_t node) {
     }
     EnfMoverWork work = {.movers = movers, .assembly = movers->assembly, .parts = parts, .node = node};
     work.mover = blank(entity);
-    work.rest = rest_of(&movers->assembly->entities.data[entity]);
+    work.rest = enf_mover_rest(&movers->assembly->entities.data[entity]);
     if (obstacle) {
         work.mover.flags = ENF_MOVER_SOLID;
         return enf_mover_obstacle(&work);

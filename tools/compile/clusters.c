@@ -3,6 +3,7 @@
 
 #include "compile/array.h"
 #include "compile/exact.h"
+#include "compile/pack.h"
 
 #include <enfilade/tolerances.h>
 #include <float.h>
@@ -72,35 +73,14 @@ static bool sort_triangles(const Builder *builder) {
 
 /* ---- vertices --------------------------------------------------------------------------------------------------- */
 
-static uint32_t pack_normal(const float n[3]) {
-    uint32_t packed = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double scaled = (double)n[axis] * 511.0;
-        int32_t rounded = (int32_t)(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
-        rounded = rounded > 511 ? 511 : rounded < -511 ? -511 : rounded;
-        packed |= ((uint32_t)rounded & 0x3ffu) << (10 * axis);
-    }
-    return packed;
-}
-
-static uint32_t pack_color(const float color[4]) {
-    uint32_t packed = 0;
-    for (int channel = 0; channel < 4; channel++) {
-        double c = (double)color[channel];
-        c = c > 0 ? (c < 1 ? c : 1) : 0;
-        packed |= (uint32_t)(c * 255.0 + 0.5) << (8 * channel);
-    }
-    return packed;
-}
-
 /* Relative to the cell's origin: exact within 4,096 m of it, else rounded to the nearest float. */
 static EnfVertex pack_vertex(const EnfSoupVertex *v, EnfGrid3 origin, uint32_t cell) {
     EnfGrid3 d = enf_grid_sub(v->p, origin);
     EnfVertex packed = {
         {(float)((double)d.x * ENF_GRID_STEP), (float)((double)d.y * ENF_GRID_STEP), (float)((double)d.z * ENF_GRID_STEP)},
-        pack_normal(v->normal),
+        enf_pack_normal(v->normal),
         {v->uv[0] + 0.0f, v->uv[1] + 0.0f}, /* no −0: equal values have equal bytes */
-        pack_color(v->color),
+        enf_pack_color(v->color),
         cell};
     return packed;
 }

@@ -115,13 +115,6 @@ typedef struct Leaves {
     ENF_ARRAY(Pane) panes;
 } Leaves;
 
-static EnfAffine rest_of(const EnfAssembly *assembly, uint32_t mover) {
-    const EnfEntity *e = &assembly->entities.data[assembly->movers.data[mover].entity];
-    EnfQuat q = {(double)e->rotation[0], (double)e->rotation[1], (double)e->rotation[2], (double)e->rotation[3]};
-    return enf_affine_trs(enf_v3(e->translation[0], e->translation[1], e->translation[2]), q,
-                          enf_v3((double)e->scale[0], (double)e->scale[1], (double)e->scale[2]));
-}
-
 static EnfVec3 corner_of(const EnfAssembly *assembly, const EnfAffine *rest, uint32_t index) {
     const float *p = assembly->vertices.data[assembly->indices.data[index]].position;
     return enf_affine_point(rest, enf_v3((double)p[0], (double)p[1], (double)p[2]));
@@ -136,7 +129,7 @@ static bool hides(const EnfAssembly *assembly, const EnfMeshPart *part) {
 /* The box at rest of what hides; `drawn`: of panes of glass, too. */
 static EnfBox3 mover_box(const EnfAssembly *assembly, uint32_t mover, bool drawn) {
     EnfBox3 box = enf_box3_empty();
-    EnfAffine rest = rest_of(assembly, mover);
+    EnfAffine rest = enf_mover_rest(&assembly->entities.data[assembly->movers.data[mover].entity]);
     const EnfMesh *mesh = &assembly->meshes.data[assembly->movers.data[mover].mesh];
     for (uint32_t p = mesh->part_first; p < mesh->part_first + mesh->part_count; p++) {
         const EnfMeshPart *part = &assembly->mesh_parts.data[p];
@@ -152,7 +145,7 @@ static EnfBox3 mover_box(const EnfAssembly *assembly, uint32_t mover, bool drawn
 /* The panes of a leaf; false if there are too many or memory is out. */
 static bool add_panes(Leaves *leaves, uint32_t mover) {
     const EnfAssembly *assembly = leaves->assembly;
-    EnfAffine rest = rest_of(assembly, mover);
+    EnfAffine rest = enf_mover_rest(&assembly->entities.data[assembly->movers.data[mover].entity]);
     const EnfMesh *mesh = &assembly->meshes.data[assembly->movers.data[mover].mesh];
     for (uint32_t p = mesh->part_first; p < mesh->part_first + mesh->part_count; p++) {
         const EnfMeshPart *part = &assembly->mesh_parts.data[p];

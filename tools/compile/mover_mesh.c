@@ -1,6 +1,7 @@
 /* The mesh of a mover: the triangles of its root and of what hangs rigidly below it, in the space of its rest pose, a part a
  * material. A mesh that a single node brings as it is serves every mover that brings the same. */
 #include "compile/movers.h"
+#include "compile/pack.h"
 
 #include <float.h>
 #include <math.h>
@@ -8,27 +9,6 @@
 
 /* Metres: two rigid placements that agree this well at 100 m from the origin place a mesh alike. */
 #define SAME_PLACE 1e-4
-
-static uint32_t pack_normal(EnfVec3 n) {
-    const double v[3] = {n.x, n.y, n.z};
-    uint32_t packed = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        double scaled = floor(v[axis] * 511.0 + 0.5);
-        int32_t rounded = scaled > 511.0 ? 511 : scaled < -511.0 ? -511 : (int32_t)scaled;
-        packed |= ((uint32_t)rounded & 0x3ffu) << (10 * axis);
-    }
-    return packed;
-}
-
-static uint32_t pack_color(const float *color) {
-    uint32_t packed = 0;
-    for (int channel = 0; channel < 4; channel++) {
-        double c = color ? (double)color[channel] : 1.0;
-        c = c > 0 ? (c < 1 ? c : 1) : 0;
-        packed |= (uint32_t)(c * 255.0 + 0.5) << (8 * channel);
-    }
-    return packed;
-}
 
 /* The direction that stays normal to a surface moved by `a`: the cofactors' product, with the determinant's sign. */
 static EnfVec3 turn_normal(const EnfAffine *a, EnfVec3 n) {
@@ -42,10 +22,12 @@ static EnfVertex make_vertex(const EnfSourcePrimitive *primitive, uint32_t index
     const float *p = primitive->positions + 3 * (size_t)index, *n = primitive->normals + 3 * (size_t)index;
     EnfVec3 at = enf_affine_point(to_mesh, enf_v3((double)p[0], (double)p[1], (double)p[2]));
     EnfVec3 normal = turn_normal(to_mesh, enf_v3((double)n[0], (double)n[1], (double)n[2]));
+    const float turned[3] = {(float)normal.x, (float)normal.y, (float)normal.z};
+    static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     EnfVertex vertex = {{enf_finite_float(at.x) + 0.0f, enf_finite_float(at.y) + 0.0f, enf_finite_float(at.z) + 0.0f},
-                        pack_normal(normal),
+                        enf_pack_normal(turned),
                         {0.0f, 0.0f},
-                        pack_color(primitive->colors ? primitive->colors + 4 * (size_t)index : NULL),
+                        enf_pack_color(primitive->colors ? primitive->colors + 4 * (size_t)index : white),
                         ENF_NONE};
     if (primitive->uvs) {
         vertex.uv[0] = primitive->uvs[2 * (size_t)index] + 0.0f;

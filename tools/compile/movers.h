@@ -44,6 +44,8 @@ typedef struct EnfMoverWork {
     EnfMover mover;
 } EnfMoverWork;
 
+/** Mesh space → world of a mover at rest, from its entity's floats, as the run time will read them. */
+EnfAffine enf_mover_rest(const EnfEntity *entity);
 /** mover_mesh.c: the mesh of a mover, shared with earlier movers of the same source mesh. False if memory is out. */
 bool enf_mover_mesh(EnfMoverWork *work);
 /** mover_obstacle.c: what of a node that stands only collides, as movers that stand: a solid has few triangles (collide.h), so that
