@@ -13,6 +13,9 @@
 
 /* Metres that rounding may take: positions of 10 km round by 2^-39, the search ends at 2^-24. */
 #define ROUNDING 0x1p-22
+/* Inside is what overlaps by more than enf_collide_overlap calls rounding: dice do throw a body in that near to a wall. A sweep is
+ * held to ROUNDING nearer than where it began (check_sweep). */
+#define INSIDE (0x1p-20 + ROUNDING)
 #define SPEED_MAX 300.0
 
 /* A door, as the dice know it. */
@@ -147,7 +150,7 @@ static void check_move(Ground *g, const EnfCapsule *capsule, EnfVec3 from, EnfVe
     }
     enf_oracle_near(&g->oracle, full ? enf_oracle_box(capsule, from, delta) : enf_oracle_box(capsule, from, enf_sub(to, from)),
                     every);
-    g->ended_inside += enf_oracle_depth(&g->oracle, capsule, to) > ROUNDING;
+    g->ended_inside += enf_oracle_depth(&g->oracle, capsule, to) > INSIDE;
     g->tunnels += enf_oracle_tunnels(&g->oracle, capsule, from, to);
     if (full) {
         check_sweep(g, capsule, from, delta, hit);
@@ -194,10 +197,10 @@ static void check_body(Ground *g, const EnfCharacter *body, const EnfCharacterRe
         g->travelled += enf_length(enf_sub(to, from));
         enf_oracle_near(&g->oracle, enf_oracle_box(&low, from, enf_sub(to, from)), false);
         g->tunnels += enf_oracle_tunnels(&g->oracle, &low, from, to);
-        g->ended_inside += enf_oracle_depth(&g->oracle, &low, to) > ROUNDING;
+        g->ended_inside += enf_oracle_depth(&g->oracle, &low, to) > INSIDE;
     }
     enf_oracle_near(&g->oracle, enf_oracle_box(&capsule, body->position, enf_v3(0.0, 0.0, 0.0)), g->moves % 4096 == 0);
-    g->ended_inside += enf_oracle_depth(&g->oracle, &capsule, body->position) > ROUNDING;
+    g->ended_inside += enf_oracle_depth(&g->oracle, &capsule, body->position) > INSIDE;
 }
 
 /* A body at the mercy of dice: keys, and blows that throw it at up to 300 m/s. */
