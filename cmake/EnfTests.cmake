@@ -98,9 +98,12 @@ if(TARGET enfilade AND TARGET enfc AND TARGET enfreplay AND NOT CMAKE_CROSSCOMPI
   if(ENF_SANITIZE)
     set(sanitized sanitized)
   endif()
-  add_test(NAME play COMMAND ${PROJECT_SOURCE_DIR}/tests/game/play.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_SOURCE_DIR}
-                             ${CMAKE_BINARY_DIR}/game_test ${sanitized})
-  set_tests_properties(play PROPERTIES LABELS "fast;game;gl" TIMEOUT ${ENF_TIMEOUT_FAST} SKIP_RETURN_CODE 77 RUN_SERIAL ON)
+  # play: a whole evening. starts: how it begins and ends.
+  foreach(test play starts)
+    add_test(NAME ${test} COMMAND ${PROJECT_SOURCE_DIR}/tests/game/${test}.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}
+                                  ${PROJECT_SOURCE_DIR} ${CMAKE_BINARY_DIR}/game_test/${test} ${sanitized})
+    set_tests_properties(${test} PROPERTIES LABELS "fast;game;gl" TIMEOUT ${ENF_TIMEOUT_FAST} SKIP_RETURN_CODE 77 RUN_SERIAL ON)
+  endforeach()
 endif()
 
 include(EnfStyle)

@@ -4,6 +4,7 @@
 
 #include <SDL.h>
 
+#include "common/cli.h"
 #include "front/audio.h"
 #include "front/plan.h"
 #include "front/scene.h"
@@ -21,6 +22,8 @@ typedef struct Options {
     uint32_t seed;
     double speed; /**< of --play */
 } Options;
+/** Fills zeroed options; a message is on stderr if they make no sense (options.c). */
+EnfCliResult options_parse(Options *options, int argc, char **argv);
 
 /* ---- the game that is played, play.c ------------------------------------------------------------------------------ */
 
@@ -100,7 +103,9 @@ typedef struct Engineer {
 
 typedef struct App {
     Options options;
-    Settings settings;
+    Settings settings;               /**< that hold now */
+    Settings kept;                   /**< as the file has them */
+    bool size_once, fullscreen_once; /**< of the command line: not the person's own, and never saved */
     char config[SETTINGS_PATH_SIZE]; /**< "" : nowhere to save */
     SDL_Window *window;
     SDL_GLContext context;
@@ -155,7 +160,8 @@ void events_handle(App *app);
 
 /* modes.c: what is going on, tick by tick */
 void modes_title(App *app);
-EnfResult modes_play(App *app, EnfError *error);
+EnfResult modes_play(App *app, EnfError *error);  /**< a new game, or the recording of the options */
+EnfResult modes_enter(App *app, EnfError *error); /**< the game that is open */
 void modes_tour(App *app);
 void modes_step(App *app, double elapsed_ms);
 /** Where the picture is taken from now, and how far it is between ticks. */
@@ -191,7 +197,12 @@ void engineer_measure(App *app, double alpha);
 /* headless.c */
 int headless_run(App *app);
 
-/** Shows an error where a person sees it; returns ENF_EXIT_FAILURE. */
-int app_fail(App *app, const EnfError *error);
+/* app.c */
+/** The program, with options that were parsed; returns its exit status. Leaves nothing behind. */
+int app_run(App *app);
+/** Says what went wrong on stderr; returns ENF_EXIT_FAILURE. Nothing waits: who reads it may be a script. */
+int app_fail(const EnfError *error);
+/** Writes what the person has set, if it has changed; what the command line said for once is not among it. */
+EnfResult app_save_settings(App *app, EnfError *error);
 
 #endif

@@ -97,6 +97,7 @@ static void key(App *app, const SDL_KeyboardEvent *event) {
         take_shot(app);
     } else if (!event->repeat && code == SDL_SCANCODE_F11) {
         app->settings.fullscreen = !app->settings.fullscreen;
+        app->fullscreen_once = false;
         window_apply(app);
     } else if (!event->repeat && engineer_key(app, code)) {
         return;

@@ -9,20 +9,10 @@
 
 enum { TOUR_FRAMES = 240, TOUR_SECONDS_MAX = 1800 };
 
-static int fail(const EnfError *error) {
-    fprintf(stderr, "enfilade: %s%s%s\n", error->file, *error->file ? ": " : "",
-            *error->message ? error->message : enf_result_text(error->code));
-    return ENF_EXIT_FAILURE;
-}
-
 /* ---- a recording -------------------------------------------------------------------------------------------------------- */
 
 static int run_play(App *app) {
-    EnfError error = {0};
     static const EnfInput nothing;
-    if (play_open(&app->play, &app->map, &app->options, &error) != ENF_OK) {
-        return fail(&error);
-    }
     while (!app->play.replay_ended) {
         play_step(&app->play, &nothing);
     }
@@ -112,10 +102,6 @@ static int run_tour(App *app) {
 }
 
 static int open_tour(App *app, EnfContext **context, EnfError *error) {
-    if (app->river_file.size == 0) {
-        enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "this map has no guided tour: name one with --river");
-        return fail(error);
-    }
     uint32_t width = app->options.size[0] ? app->options.size[0] : 1280;
     uint32_t height = app->options.size[0] ? app->options.size[1] : 720;
     EnfResult result = enf_context_create(context, ENF_CONTEXT_ANY, error);
@@ -125,17 +111,13 @@ static int open_tour(App *app, EnfContext **context, EnfError *error) {
     result = result ? result : scene_resize(&app->scene, width, height, error);
     result = result ? result : modes_tour_world(app, error);
     result = result ? result : scene_attach(&app->scene, app->tour_world, &app->tour_portals, error);
-    return result ? fail(error) : run_tour(app);
+    return result ? app_fail(error) : run_tour(app);
 }
 
 int headless_run(App *app) {
     EnfError error = {0};
     EnfContext *context = NULL;
     app->settings = settings_default();
-    if (enf_map_read(&app->map, app->options.map, NULL, &error) != ENF_OK) {
-        return fail(&error);
-    }
-    app->map_read = true;
     if (app->options.play) {
         return run_play(app);
     }

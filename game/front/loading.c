@@ -1,4 +1,4 @@
-/* Reads the map and puts it on the graphics card while the window stays alive: a second context of the same window makes the
+/* Puts the map, which is read and checked, on the graphics card while the window stays alive: a second context of the same window makes the
  * pictures meanwhile, since the one that will draw belongs to the thread that loads. */
 #include <stdatomic.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 
 #include "front/app.h"
 
-typedef enum LoadStage { LOAD_READ, LOAD_UPLOAD, LOAD_PREPARE, LOAD_DONE } LoadStage;
+typedef enum LoadStage { LOAD_UPLOAD, LOAD_PREPARE, LOAD_DONE } LoadStage;
 
 typedef struct Loading {
     App *app;
@@ -16,23 +16,17 @@ typedef struct Loading {
     EnfResult result;
 } Loading;
 
-static const char *const stage_names[] = {"Reading the map", "Lighting the rooms", "Opening the doors", ""};
+static const char *const stage_names[] = {"Lighting the rooms", "Opening the doors", ""};
 /* Where the bar is when a stage begins, and how long it usually takes, seconds: the bar nears its end without getting there. */
-static const double stage_begins[] = {0.0, 0.15, 0.9, 1.0}, stage_seconds[] = {0.5, 3.0, 0.5, 1.0};
+static const double stage_begins[] = {0.0, 0.9, 1.0}, stage_seconds[] = {3.0, 0.5, 1.0};
 
 static EnfResult load(Loading *loading) {
     App *app = loading->app;
     EnfError *error = &loading->error;
-    EnfResult result = enf_map_read(&app->map, app->options.map, NULL, error);
-    if (result != ENF_OK) {
-        return result;
-    }
-    app->map_read = true;
-    atomic_store(&loading->stage, LOAD_UPLOAD);
     if (SDL_GL_MakeCurrent(app->window, loading->context) != 0) {
         return enf_error_set(error, ENF_ERROR_CONTEXT, UINT64_MAX, "%s", SDL_GetError());
     }
-    result = enf_gl_create(&app->gl, &app->map, window_load, error);
+    EnfResult result = enf_gl_create(&app->gl, &app->map, window_load, error);
     atomic_store(&loading->stage, LOAD_PREPARE);
     result = result ? result : scene_create(&app->scene, &app->map, app->gl, window_load, error);
     result = result ? result : plan_create(&app->plan, &app->map, error);
@@ -86,7 +80,7 @@ static double progress(int stage, double stage_ms) {
 /* Shows how far it is; a wish to quit is obeyed when the thread is done. */
 static void watch(Loading *loading) {
     App *app = loading->app;
-    int shown = LOAD_READ, stage;
+    int shown = LOAD_UPLOAD, stage;
     double since = scene_now_ms();
     while ((stage = atomic_load(&loading->stage)) != LOAD_DONE) {
         double now = scene_now_ms();

@@ -96,7 +96,7 @@ void menu_close_all(App *app) {
 
 static void save(App *app) {
     EnfError error = {0};
-    if (*app->config && settings_write(&app->settings, app->config, &error) != ENF_OK) {
+    if (app_save_settings(app, &error) != ENF_OK) {
         hud_notice(app, "The settings could not be saved");
         SDL_Log("%s: %s", error.file, error.message);
     }
@@ -187,6 +187,7 @@ static void act(App *app, Act what) {
         break;
     case ACT_DEFAULTS:
         app->settings = settings_default();
+        app->size_once = app->fullscreen_once = false;
         apply(app);
         break;
     }
@@ -209,6 +210,7 @@ static void change_size(App *app, int step) {
     }
     at += step;
     at = at < 0 ? 0 : at >= SIZES ? SIZES - 1 : at;
+    app->size_once = false;
     s->width = sizes[at][0];
     s->height = sizes[at][1];
 }
@@ -223,6 +225,7 @@ void menu_change(App *app, int step) {
         double steps = floor(*value / row->step + 0.5) + (double)step, wanted = steps * row->step;
         *value = wanted < row->range[0] ? row->range[0] : wanted > row->range[1] ? row->range[1] : wanted;
     } else if (row->kind == ROW_FLAG) {
+        app->fullscreen_once = app->fullscreen_once && row->field != FIELD(fullscreen);
         *flag_of(app, row) = !*flag_of(app, row);
     } else if (row->kind == ROW_SIZE) {
         change_size(app, step);

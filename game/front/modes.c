@@ -94,14 +94,8 @@ void modes_tour(App *app) {
     hud_notice(app, "You are carried along: look around, push where you look. Esc: back");
 }
 
-EnfResult modes_play(App *app, EnfError *error) {
-    show_tour_world(app);
-    play_close(&app->play);
-    /* In place: a replay's cursor points into it. */
-    EnfResult result = play_open(&app->play, &app->map, &app->options, error);
-    if (result == ENF_OK) {
-        result = scene_attach(&app->scene, game_world(app->play.game), game_portals(app->play.game), error);
-    }
+EnfResult modes_enter(App *app, EnfError *error) {
+    EnfResult result = scene_attach(&app->scene, game_world(app->play.game), game_portals(app->play.game), error);
     app->options.record = NULL; /* one game: the next must not overwrite it */
     if (result != ENF_OK) {
         modes_title(app);
@@ -113,6 +107,18 @@ EnfResult modes_play(App *app, EnfError *error) {
     audio_loop(&app->audio, AUDIO_SLOT_MUSIC, -1);
     audio_loop(&app->audio, AUDIO_SLOT_AMBIENT, AUDIO_NIGHT);
     return ENF_OK;
+}
+
+EnfResult modes_play(App *app, EnfError *error) {
+    show_tour_world(app);
+    play_close(&app->play);
+    /* In place: a replay's cursor points into it. */
+    EnfResult result = play_open(&app->play, &app->map, &app->options, error);
+    if (result != ENF_OK) {
+        modes_title(app);
+        return result;
+    }
+    return modes_enter(app, error);
 }
 
 /* ---- a tick --------------------------------------------------------------------------------------------------------- */

@@ -77,7 +77,8 @@ void play_step(Play *play, const EnfInput *input) {
 }
 
 EnfResult play_finish(Play *play, EnfError *error) {
-    EnfResult result = play->recorder ? enf_recorder_finish(play->recorder, error) : ENF_OK;
+    bool empty = play->recorder && enf_recorder_ticks(play->recorder) == 0; /* nobody played: nothing is written */
+    EnfResult result = play->recorder && !empty ? enf_recorder_finish(play->recorder, error) : ENF_OK;
     enf_recorder_destroy(play->recorder);
     play->recorder = NULL;
     return result;

@@ -38,6 +38,18 @@ Settings settings_default(void) {
     return s;
 }
 
+/* Field by field: the structure has padding. */
+bool settings_equal(const Settings *a, const Settings *b) {
+    bool equal = memcmp(a->keys, b->keys, sizeof a->keys) == 0;
+#define NUMBER_EQUAL(name, least, most, usual) equal = equal && fabs(a->name - b->name) <= 0.0;
+    SETTINGS_NUMBERS(NUMBER_EQUAL)
+#undef NUMBER_EQUAL
+#define FLAG_EQUAL(name, usual) equal = equal && a->name == b->name;
+    SETTINGS_FLAGS(FLAG_EQUAL)
+#undef FLAG_EQUAL
+    return equal;
+}
+
 const char *settings_action_label(Action action) {
     static const char *const labels[ACTION_COUNT] = {
 #define ACTION_LABEL(name, key, label, code) label,

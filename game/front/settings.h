@@ -50,6 +50,7 @@ typedef struct Settings {
 } Settings;
 
 Settings settings_default(void);
+bool settings_equal(const Settings *a, const Settings *b);
 const char *settings_action_label(Action action);
 
 #define SETTINGS_PATH_SIZE 1024
