@@ -1,57 +1,8 @@
 /* Motions: states are pure functions of the tick, and bounds hold every state. Oracles: dense sampling of every tick (and between
  * ticks, by a finer clock), and interval evaluation of the curves in Bernstein form, which shares no code with the engine. */
-#include "harness/harness.h"
-
-#include <enfilade/world.h>
+#include "harness/random_motion.h"
 
 #include <math.h>
-#include <string.h>
-
-enum { KEYS = 12 };
-
-/* A path with arrays of its own. */
-typedef struct Path {
-    EnfMotion motion;
-    float times[3][KEYS];
-    float values[3][KEYS * 12];
-} Path;
-
-static EnfTrack random_track(EnfTestRng *rng, float *times, float *values, uint32_t components, double size) {
-    EnfTrack track = {(EnfPathKind)enf_test_below(rng, 3), 1 + enf_test_below(rng, KEYS), times, values};
-    float at = enf_test_chance(rng, 2) ? 0.0F : enf_test_float(rng, 0.0F, 1.0F);
-    for (uint32_t k = 0; k < track.key_count; k++) {
-        times[k] = at;
-        at += enf_test_chance(rng, 4) ? 1e-3F : enf_test_float(rng, 0.05F, 3.0F);
-    }
-    uint32_t count = track.key_count * components * (track.kind == ENF_PATH_CUBIC ? 3U : 1U);
-    for (uint32_t i = 0; i < count; i++) {
-        values[i] = enf_test_float(rng, (float)-size, (float)size);
-    }
-    return track;
-}
-
-static void random_path(EnfTestRng *rng, Path *path) {
-    memset(path, 0, sizeof *path);
-    path->motion.kind = ENF_MOTION_PATH;
-    EnfPathMotion *p = &path->motion.as.path;
-    double size = enf_test_chance(rng, 4) ? 1e5 : 10.0;
-    p->rest = enf_pose_identity();
-    p->rest.rotation = enf_quat_axis_angle(enf_v3(0.6, 0.0, 0.8), enf_test_double(rng, -3.0, 3.0));
-    p->rest.position = enf_v3(enf_test_double(rng, -size, size), 0.0, 1.0);
-    if (!enf_test_chance(rng, 4)) {
-        p->translation = random_track(rng, path->times[0], path->values[0], 3, size);
-    }
-    if (enf_test_chance(rng, 2)) {
-        p->rotation = random_track(rng, path->times[1], path->values[1], 4, 1.0);
-    }
-    if (enf_test_chance(rng, 3)) {
-        p->scale = random_track(rng, path->times[2], path->values[2], 3, 2.0);
-    }
-    p->wrap = (EnfWrap)enf_test_below(rng, 3);
-    p->seconds = enf_test_double(rng, 0.1, 30.0);
-    p->period_ticks = 1 + (uint32_t)(p->seconds * ENF_TICK_RATE);
-    p->start_tick = (int64_t)enf_test_below(rng, 1000) - 500;
-}
 
 static bool box_holds(EnfBox3 box, EnfVec3 p) {
     return enf_box3_contains(box, p);
@@ -72,15 +23,9 @@ static void check_state_in(const EnfMotion *motion, const EnfBox3 *local, int64_
     }
 }
 
-static EnfBox3 random_local(EnfTestRng *rng) {
-    EnfVec3 a = enf_v3(enf_test_double(rng, -2, 2), enf_test_double(rng, -2, 2), enf_test_double(rng, -2, 2));
-    EnfBox3 box = {a, enf_add(a, enf_v3(enf_test_double(rng, 0, 1), enf_test_double(rng, 0, 1), enf_test_double(rng, 0, 1)))};
-    return box;
-}
-
 /* Every tick of short ranges, a sample of long ones. */
 static void check_range(EnfTestRng *rng, const EnfMotion *motion, int64_t tick0, int64_t tick1) {
-    EnfBox3 local = random_local(rng);
+    EnfBox3 local = enf_random_local(rng);
     EnfBox3 box = enf_motion_bound(motion, &local, tick0, tick1);
     for (int i = 0; i < 60; i++) {
         int64_t span = tick1 - tick0;
@@ -91,23 +36,14 @@ static void check_range(EnfTestRng *rng, const EnfMotion *motion, int64_t tick0,
     check_state_in(motion, &local, tick1, box);
 }
 
-static int64_t random_tick(EnfTestRng *rng) {
-    return enf_test_chance(rng, 3) ? (int64_t)(enf_test_u64(rng) % 1000000000U) : (int64_t)enf_test_below(rng, 4000) - 2000;
-}
-
-static int64_t random_span(EnfTestRng *rng) {
-    static const uint32_t spans[] = {1, 10, 100, 1000, 100000, 1000000000};
-    return (int64_t)enf_test_below(rng, spans[enf_test_below(rng, 6)]);
-}
-
 static void test_path_bounds_hold_every_state(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(1);
     for (uint32_t r = 0; r < enf_test_rounds(4000, 200000); r++) {
-        Path path;
-        random_path(&rng, &path);
-        int64_t tick0 = random_tick(&rng);
-        check_range(&rng, &path.motion, tick0, tick0 + random_span(&rng));
+        EnfRandomPath path;
+        enf_random_path(&rng, &path);
+        int64_t tick0 = enf_random_tick(&rng);
+        check_range(&rng, &path.motion, tick0, tick0 + enf_random_span(&rng));
     }
 }
 
@@ -214,8 +150,8 @@ static void test_states_are_pure(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(3);
     for (uint32_t r = 0; r < enf_test_rounds(500, 20000); r++) {
-        Path path;
-        random_path(&rng, &path);
+        EnfRandomPath path;
+        enf_random_path(&rng, &path);
         EnfPathMotion *p = &path.motion.as.path;
         p->wrap = r % 2 ? ENF_WRAP_LOOP : ENF_WRAP_PING_PONG;
         int64_t tick = p->start_tick + (int64_t)enf_test_below(&rng, 2 * p->period_ticks);
@@ -227,32 +163,17 @@ static void test_states_are_pure(void **state) {
     }
 }
 
-static EnfMotion random_swing(EnfTestRng *rng, EnfMotionKind kind) {
-    EnfMotion motion;
-    memset(&motion, 0, sizeof motion);
-    motion.kind = kind;
-    EnfSwingMotion *swing = &motion.as.swing;
-    swing->rest = enf_pose_identity();
-    swing->rest.position = enf_v3(enf_test_double(rng, -50, 50), 0.0, 3.0);
-    swing->pivot = enf_add(swing->rest.position, enf_v3(enf_test_double(rng, -1, 1), 0.0, 0.0));
-    swing->axis = enf_normalize(enf_v3(enf_test_double(rng, -1, 1), 1.0, enf_test_double(rng, -1, 1)));
-    swing->low = -3.0;
-    swing->high = 3.0;
-    swing->rate = enf_test_double(rng, 1e-3, 20.0);
-    return motion;
-}
-
 static void test_doors(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(4);
     for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
-        EnfMotion motion = random_swing(&rng, r % 2 ? ENF_MOTION_HINGE : ENF_MOTION_SLIDE);
+        EnfMotion motion = enf_random_swing(&rng, r % 2 ? ENF_MOTION_HINGE : ENF_MOTION_SLIDE);
         int64_t tick = (int64_t)enf_test_below(&rng, 1000000);
         for (int event = 0; event < 3; event++) {
             double before = enf_swing_position(&motion, tick);
             enf_swing_set(&motion, tick, enf_test_double(&rng, -5.0, 5.0));
             assert_true(enf_swing_position(&motion, tick) == before); /* no jump */
-            check_range(&rng, &motion, tick, tick + random_span(&rng) % 5000);
+            check_range(&rng, &motion, tick, tick + enf_random_span(&rng) % 5000);
             tick += 1 + (int64_t)enf_test_below(&rng, 200);
             double now = enf_swing_position(&motion, tick);
             assert_true(now >= -3.0 && now <= 3.0);
@@ -272,10 +193,10 @@ static void test_free_objects_stay_within_their_speed(void **state) {
         motion.as.free.max_speed = r % 3 ? enf_test_double(&rng, 0.0, 5.0) : 1000.0;
         EnfPose pose = enf_pose_identity();
         pose.position = enf_v3(enf_test_double(&rng, -1e5, 1e5), 0.0, 0.0);
-        int64_t pushed = random_tick(&rng);
+        int64_t pushed = enf_random_tick(&rng);
         enf_free_push(&motion, pushed, pose);
-        int64_t tick = pushed + random_span(&rng);
-        EnfBox3 local = random_local(&rng);
+        int64_t tick = pushed + enf_random_span(&rng);
+        EnfBox3 local = enf_random_local(&rng);
         EnfBox3 box = enf_motion_bound(&motion, &local, pushed, tick);
         double way = motion.as.free.max_speed * (double)(tick - pushed) / ENF_TICK_RATE;
         EnfVec3 step = enf_normalize(enf_v3(enf_test_double(&rng, -1, 1), enf_test_double(&rng, -1, 1), 1.0));

@@ -134,8 +134,8 @@ typedef struct EnfMotion {
 EnfPose enf_motion_state(const EnfMotion *motion, int64_t tick);
 
 /** A box (world) that contains every point of the object's `local` box at every tick of [tick0, tick1] (tick0 <= tick1), rounded
- *  outward. FREE counts from its push. @guarantee tests/property/test_motion: dense sampling and interval evaluation.
- *  @cost O(keys in the range), O(keys) beyond one pass. Source: extremes of cubic Hermite segments; DESIGN §5. */
+ *  outward. FREE counts from its push. @guarantee tests/property/test_motion: dense sampling; test_motion_proof: interval arithmetic
+ *  over every moment of the range, for every kind of motion, and how loose it is. @cost O(keys in the range), O(keys) beyond one pass. Source: extremes of cubic Hermite segments; DESIGN §5. */
 EnfBox3 enf_motion_bound(const EnfMotion *motion, const EnfBox3 *local, int64_t tick0, int64_t tick1);
 
 /** Sends a hinge or slide towards `target` (clamped to its range) from where it is at `tick`. */
