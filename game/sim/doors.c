@@ -69,7 +69,8 @@ static void send(Game *game, SimDoor *door, double wanted) {
     }
     bool shuts = wanted == 0.0;
     if (!door->moving && !shuts) {
-        sim_sound(game, GAME_SOUND_DOOR_OPEN, door_place(game, door), 0.8);
+        bool slides = game->map->movers[door->mover].kind == ENF_MOVER_SLIDE;
+        sim_sound(game, slides ? GAME_SOUND_DOOR_SLIDES : GAME_SOUND_DOOR_OPEN, door_place(game, door), 0.8);
     }
     door->wanted = wanted;
     door->moving = 1;
@@ -84,6 +85,9 @@ bool sim_door_open(Game *game, uint32_t index, bool keys) {
     if (door->locked && !keys && !(door->key && sim_has_key(game, door->key))) {
         sim_sound(game, GAME_SOUND_DOOR_LOCKED, door_place(game, door), 0.6);
         return false;
+    }
+    if (door->locked && door->wanted != door->open) { /* once, not at every push of a guard against it */
+        sim_sound(game, GAME_SOUND_DOOR_UNLOCKED, door_place(game, door), 0.5);
     }
     for (uint32_t i = 0; i < game->door_count; i++) {
         SimDoor *leaf = &game->doors[i];
@@ -242,7 +246,9 @@ void sim_lifts_step(Game *game) {
         const EnfMotion *motion = enf_world_motion(game->world, lift->object.index);
         if (lift->moving && enf_swing_position(motion, sim_world_tick(game)) == motion->as.swing.target) {
             lift->moving = 0;
-            sim_sound(game, GAME_SOUND_LIFT_STOPS, enf_world_pose(game->world, lift->object.index).position, 0.6);
+            EnfVec3 at = enf_world_pose(game->world, lift->object.index).position;
+            sim_sound(game, GAME_SOUND_LIFT_STOPS, at, 0.6);
+            sim_sound(game, GAME_SOUND_LIFT_RINGS, at, 0.5);
         }
     }
 }

@@ -81,15 +81,22 @@ typedef struct GameState {
     X(LAND, "land")                                                                                                            \
     X(DOOR_OPEN, "door_open")                                                                                                  \
     X(DOOR_SHUT, "door_close")                                                                                                 \
+    X(DOOR_SLIDES, "door_slide")                                                                                               \
     X(DOOR_LOCKED, "door_locked")                                                                                              \
+    X(DOOR_UNLOCKED, "door_unlock")                                                                                            \
     X(LIFT, "lift_start")                                                                                                      \
     X(LIFT_STOPS, "lift_stop")                                                                                                 \
+    X(LIFT_RINGS, "lift_ding")                                                                                                 \
     X(SWITCH, "switch")                                                                                                        \
     X(TAKE, "pick_up")                                                                                                         \
+    X(TAKE_KEY, "pick_up_key")                                                                                                 \
     X(DROP, "put_down")                                                                                                        \
     X(GUARD_STEP, "step_stone")                                                                                                \
     X(GUARD_WONDERS, "guard_hm")                                                                                               \
     X(GUARD_SEES, "guard_alert")                                                                                               \
+    X(GUARD_WHISTLES, "guard_whistle")                                                                                         \
+    X(GUARD_GIVES_UP, "guard_lost")                                                                                            \
+    X(CAUGHT, "caught")                                                                                                        \
     X(DELIVERED, "delivered")                                                                                                  \
     X(WON, "win")                                                                                                              \
     X(LOST, "lose")

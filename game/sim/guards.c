@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LOOK_EVERY = 4, ROUTE_EVERY = 20, WONDER_TICKS = 150, SEARCH_TICKS = 480 };
+enum { LOOK_EVERY = 4, ROUTE_EVERY = 20, WONDER_TICKS = 150, SEARCH_TICKS = 480, WHISTLE_EVERY = 200 };
 /* Ticks from the start in which nobody is seen: one comes in by the door and looks about. */
 enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 #define EYE_HEIGHT 1.65
@@ -264,7 +264,8 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
     }
 }
 
-static void go_back(SimGuard *guard) {
+static void go_back(Game *game, SimGuard *guard) {
+    sim_sound(game, GAME_SOUND_GUARD_GIVES_UP, eye_of(guard), 0.7);
     guard->mood = GAME_GUARD_RETURNS;
     guard->route_count = 0;
 }
@@ -278,6 +279,14 @@ static void return_home(Game *game, SimGuard *guard) {
     uint32_t cell = enf_map_locate(game->map, enf_add(place, enf_v3(0.0, 1.0, 0.0)));
     if (go(game, guard, place, cell, RETURN_SPEED) || sim_tick(game) > guard->until + 4 * SEARCH_TICKS) {
         resume(game, guard);
+    }
+}
+
+/* Who chases and sees whistles now and then: it can be heard where the chase is. */
+static void whistle(Game *game, const SimGuard *guard, uint32_t number) {
+    bool calls = guard->mood == GAME_GUARD_CHASES && guard->sees;
+    if (calls && (sim_tick(game) + 50 * (int64_t)number) % WHISTLE_EVERY == 0) {
+        sim_sound(game, GAME_SOUND_GUARD_WHISTLES, eye_of(guard), 0.9);
     }
 }
 
@@ -304,7 +313,7 @@ static void act(Game *game, SimGuard *guard) {
             guard->route_count = 0;
         }
         if (tick >= guard->until) {
-            go_back(guard);
+            go_back(game, guard);
         }
         break;
     case GAME_GUARD_SEARCHES:
@@ -313,7 +322,7 @@ static void act(Game *game, SimGuard *guard) {
             guard->yaw_deg += TURN_RATE / 3.0 / ENF_TICK_RATE;
         }
         if (tick >= guard->until) {
-            go_back(guard);
+            go_back(game, guard);
         }
         break;
     default:
@@ -331,6 +340,7 @@ static void catch_player(Game *game, const SimGuard *guard) {
     bool near = sqrt(way.x * way.x + way.z * way.z) < CATCH_DISTANCE && fabs(way.y) < 1.2;
     if (near && guard->sees && guard->mood == GAME_GUARD_CHASES && game->score.phase == GAME_PLAYING) {
         game->score.phase = GAME_LOST;
+        sim_sound(game, GAME_SOUND_CAUGHT, eye_of(guard), 1.0);
         sim_sound(game, GAME_SOUND_LOST, game->player.body.position, 1.0);
         sim_say(game, "Caught");
     }
@@ -341,6 +351,7 @@ void sim_guards_step(Game *game) {
         SimGuard *guard = &game->guards[i];
         act(game, guard);
         look(game, guard, i);
+        whistle(game, guard, i);
         catch_player(game, guard);
     }
 }

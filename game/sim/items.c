@@ -74,7 +74,7 @@ static void take(Game *game, uint32_t index) {
     title_of(game, item, title);
     snprintf(text, sizeof text, "You took %s", title);
     sim_say(game, text);
-    sim_sound(game, GAME_SOUND_TAKE, item->at, 0.5);
+    sim_sound(game, item->is_key ? GAME_SOUND_TAKE_KEY : GAME_SOUND_TAKE, item->at, 0.5);
 }
 
 static uint32_t button_ahead(const Game *game, EnfVec3 eye, EnfVec3 look) {

@@ -154,6 +154,8 @@ static void test_a_lock_wants_its_key(void **state) {
     assert_false(enf_portals_is_open(game_portals(play.game), play.night.portal));
     run(&play, "enfbot 1\ntake key\ntake vase\ngoto exit\nexpect won 1\n", NULL, NULL, MOST);
     assert_int_equal(game_state(play.game)->exhibits, 1); /* a key is none */
+    assert_int_equal(play.heard[GAME_SOUND_TAKE_KEY], 1);
+    assert_int_equal(play.heard[GAME_SOUND_DOOR_UNLOCKED], 1);
     close_play(&play);
 }
 
@@ -187,6 +189,7 @@ static void test_an_elevator_carries(void **state) {
     assert_true(fabs(shown->eye_ws.y - (2.125 + 1.63)) < 0.05);
     assert_int_equal(play.heard[GAME_SOUND_LIFT], 1);
     assert_int_equal(play.heard[GAME_SOUND_LIFT_STOPS], 1);
+    assert_int_equal(play.heard[GAME_SOUND_LIFT_RINGS], 1);
     close_play(&play);
     open_play(&play, (EnfNightDef){.lift = true}, false);
     run(&play, "enfbot 1\npress button\nwait 3\n", NULL, NULL, MOST);
@@ -201,6 +204,7 @@ static void test_a_guard_catches_whom_it_sees(void **state) {
     open_play(&play, (EnfNightDef){.guard = true}, false);
     run(&play, "enfbot 1\nwait 5\ngoto point 10 0 4\nexpect lost 40\n", NULL, NULL, MOST);
     assert_int_equal(play.heard[GAME_SOUND_LOST], 1);
+    assert_int_equal(play.heard[GAME_SOUND_CAUGHT], 1);
     assert_true(play.heard[GAME_SOUND_GUARD_SEES] > 0);
     close_play(&play);
     open_play(&play, (EnfNightDef){.guard = true}, true);
