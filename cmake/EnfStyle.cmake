@@ -18,6 +18,7 @@ enf_lint(layers fast)
 enf_lint(sizes fast)
 enf_lint(house fast)
 enf_lint(format fast)
+enf_lint(sounds fast)
 enf_lint(tidy long ${CMAKE_BINARY_DIR})
 # Instrumented and link-time-optimised objects name helpers of their own, so only a plain build is looked at.
 if(TARGET enf_core AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE AND NOT ENF_FUZZ AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)

@@ -79,9 +79,9 @@ class Works:
         self.at = (x + 1.5, y + 0.25, self.placer.room.ceiling - 0.004)
         return True
 
-    def part(self, mesh, build, offset, rows, phase=0.0, turn=0.0):
-        """A part that moves, its rest a vector from the middle; rows as for Scene.animate, places in the world."""
-        extras = {"wrap": "loop", "phase": phase, "solid": 0}
+    def part(self, mesh, build, offset, rows, phase=0.0, turn=0.0, **more):
+        """A part that moves, its rest a vector from the middle; rows as for Scene.animate, places in the world; `more` its node says."""
+        extras = {"wrap": "loop", "phase": phase, "solid": 0} | more
         where = tuple(a + b for a, b in zip(self.at, offset))
         data = self.scene.shared(f"marvel.{mesh}", build)
         item = self.scene.child(self.room, f"{self.name}_{self.count}", data, where, turn, extras)
@@ -96,7 +96,7 @@ def great_clock(works):
         rows = wheel(0.0, seconds, number % 2 == 0)
         works.part(f"gear{number}", lambda n=number: marvels.gear(n), (x, 0.0, z), rows)
     dial = (0.0, 0.08, marvels.GREAT_DIAL)
-    works.part("hour", lambda: moving.clock_hand(0.14, 0.024), dial, wheel(0.0, 43200.0, True), hours)
+    works.part("hour", lambda: moving.clock_hand(0.14, 0.024), dial, wheel(0.0, 43200.0, True), hours, sound="clock")
     works.part("minute", lambda: moving.clock_hand(0.21, 0.016), (0.0, 0.086, dial[2]), wheel(0.0, 3600.0, True))
     works.part("second", lambda: moving.clock_hand(0.22, 0.008), (0.0, 0.092, dial[2]), wheel(0.0, 60.0, True))
     works.part("pendulum", moving.pendulum, (0.25, 0.24, 1.3), sway(0.0, 6.0, 2.0))
@@ -173,7 +173,7 @@ def cage(works):
                 rows.append((seconds * k / steps, at, a))
             return rows
 
-        works.part("bird", moving.bird, (0.05, 0.0, 1.2 + 0.2 * number), flutter)
+        works.part("bird", moving.bird, (0.05, 0.0, 1.2 + 0.2 * number), flutter, sound="bird")
 
 
 BUILD = {f.__name__: f for f in (great_clock, orrery, globe, carousel, dancers, ship, fan, mobile, cage)}

@@ -129,20 +129,20 @@ def clock(placer, phase):
     out = (-math.sin(turn), math.cos(turn))
     z = placer.room.floor + height
 
-    def piece(name, build, forward, drop, angles, seconds, start):
+    def piece(name, build, forward, drop, angles, seconds, start, **more):
         item = scene.child(
             room,
             f"{room}_{name}",
             scene.shared(f"clock.{name}", build),
             (*add(at, scale(out, forward)), z - drop),
             turn,
-            {"wrap": "loop", "phase": start, "solid": 0},
+            {"wrap": "loop", "phase": start, "solid": 0} | more,
         )
         scene.animate(item, spin_rows(turn, angles, seconds), scene.origins[room])
 
     whole = [2 * math.pi * k / 4 for k in range(5)]
     swing = [math.radians(7.0) * math.sin(2 * math.pi * k / 16) for k in range(17)]
-    piece("hours", lambda: moving.clock_hand(0.11, 0.02), 0.112, 0.0, whole, 43200.0, phase)
+    piece("hours", lambda: moving.clock_hand(0.11, 0.02), 0.112, 0.0, whole, 43200.0, phase, sound="clock")
     piece("minutes", lambda: moving.clock_hand(0.165, 0.014), 0.118, 0.0, whole, 3600.0, phase % 3600.0)
     piece("pendulum", moving.pendulum, 0.05, 0.3, swing, 2.0, phase % 2.0)
     return 3
@@ -239,6 +239,8 @@ def lay_train(scene):
     cars += [(f"wagon.{m}", lambda m=m: moving.wagon(m), 0.58 + 0.5 * i) for i, m in enumerate(("cloth_red", "cloth_gold", "cloth_blue", "cloth_red"))]
     for number, (name, build, behind) in enumerate(cars):
         extras = {"wrap": "loop", "phase": (whole - behind) / TRAIN_SPEED, "solid": 0}
+        if number == 0:
+            extras["sound"] = "train"
         car = scene.free(f"train_{number}", scene.shared(name, build), rows[0][1], rows[0][2], extras)
         scene.animate(car, [(run / TRAIN_SPEED, at, turn) for run, at, turn in rows])
     return len(cars)
@@ -253,8 +255,8 @@ def circle_rows(centre, radius, seconds, wave, steps=24):
     return rows
 
 
-def release(scene, rooms, name, build, places):
-    """Animals that circle: places are (room, how many, height over the floor, radius, seconds, wave)."""
+def release(scene, rooms, name, build, places, **more):
+    """Animals that circle, `more` what else their nodes say: places are (room, how many, height over the floor, radius, seconds, wave)."""
     dice, count = random.Random(name), 0
     for room, number, height, radius, seconds, wave in places:
         middle = centroid(rooms[room].footprint)
@@ -262,7 +264,7 @@ def release(scene, rooms, name, build, places):
             r = radius * dice.uniform(0.45, 1.0)
             spread = max(0.0, radius - r)
             at = (middle[0] + dice.uniform(-spread, spread), middle[1] + dice.uniform(-spread, spread), rooms[room].floor + height + dice.uniform(-wave, wave))
-            extras = {"wrap": "loop", "phase": dice.uniform(0.0, seconds), "solid": 0}
+            extras = {"wrap": "loop", "phase": dice.uniform(0.0, seconds), "solid": 0} | more
             item = scene.free(f"{name}_{room}_{k}", scene.shared(name, build), at, 0.0, extras)
             scene.animate(item, circle_rows(at, r, seconds * dice.uniform(0.8, 1.3), wave))
             count += 1
@@ -276,7 +278,7 @@ def revolving_doors(scene, portals):
         if {portal.source, portal.target} == {"EastAisle", "GreatHall"} and abs(portal.centre[1]) < 0.1:
             name = f"revolving_{number}"
             mesh = scene.mesh(name, moving.revolving(1.1, 2.2))
-            item = scene.free(name, mesh, (*portal.centre[:2], portal.centre[2] + LIFT), 0.0, {"wrap": "loop"})
+            item = scene.free(name, mesh, (*portal.centre[:2], portal.centre[2] + LIFT), 0.0, {"wrap": "loop", "sound": "wings", "sound_every": 4.0})
             scene.animate(item, [(16.0 * k / 8, None, 2 * math.pi * k / 8) for k in range(9)])
             count += 1
     return count
@@ -320,6 +322,7 @@ def populate(scene, rooms, portals):
         "bird",
         moving.bird,
         [("Courtyard", 9, 6.0, 6.0, 11.0, 0.6), ("Belvedere", 4, 4.5, 3.0, 7.0, 0.4), ("Orangery", 4, 2.9, 2.5, 6.0, 0.3), ("WinterGarden", 4, 2.5, 2.5, 6.0, 0.3), ("GreatHall", 4, 6.0, 4.5, 9.0, 0.5)],
+        sound="bird",
     )
     count += release(scene, rooms, "fish", moving.fish, [("Cistern", 14, 0.14, 3.6, 16.0, 0.03)])
     exit_box = scene.child("Vestibule", "way_out", None, (0.0, -23.0, 1.2), 0.0, {"classname": "trigger_exit"})

@@ -228,7 +228,10 @@ def ramp(p):
 
 
 def court(p):
-    p.place("fountain")
+    at = p.place("fountain")
+    if at:
+        says = {"classname": "ambient_sound", "sound": "fountain"}
+        p.scene.child(p.room.name, "fountain_water", None, (*at[:2], p.room.floor + 1.2), 0.0, says)
     for sx in (-1, 1):
         for sy in (-1, 1):
             for k in range(3):

@@ -1,8 +1,12 @@
 /* Makes what is heard. The callback takes no lock, calls no heap and reads no file: commands come through a ring. */
 #include "front/audio.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* How much of the way to its new gains a voice goes in a frame of the card: some 20 ms. */
+#define GLIDE 0.001f
 
 enum { WAV_MAX = 64 << 20, CARD_RATE = 44100, CARD_SAMPLES = 1024 };
 
@@ -98,6 +102,36 @@ static void begin_voice(Audio *audio, AudioVoice *voice, const AudioCommand *com
     voice->loops = loops;
     voice->fade = loops ? 0.0f : 1.0f;
     voice->fade_step = loops ? 1.0f / (float)audio->rate : 0.0f;
+    voice->left_to = voice->left;
+    voice->right_to = voice->right;
+    voice->smooth_to = voice->smooth;
+}
+
+/* Where the speaker sounds already, it goes softly to what it is heard as now. */
+static void begin_place(Audio *audio, const AudioCommand *command) {
+    AudioVoice *place = NULL, told;
+    begin_voice(audio, &told, command, true);
+    for (int i = 0; i < AUDIO_PLACES; i++) {
+        AudioVoice *p = &audio->places[i];
+        if (p->clip == command->clip && p->id == command->slot) {
+            place = p;
+            break;
+        }
+        place = !p->clip ? p : place;
+    }
+    if (!place) {
+        return; /* more than can be told apart */
+    }
+    if (place->clip) {
+        place->left_to = told.left;
+        place->right_to = told.right;
+        place->smooth_to = told.smooth;
+        place->fade_step = fabsf(told.fade_step);
+    } else {
+        *place = told;
+        place->id = command->slot;
+    }
+    place->stays = audio->rate / 2;
 }
 
 /* The voice that is free, or nearest to its end. */
@@ -123,6 +157,9 @@ static void obey(Audio *audio, const AudioCommand *command) {
     case AUDIO_PLAY:
         begin_voice(audio, free_voice(audio), command, false);
         break;
+    case AUDIO_PLACE:
+        begin_place(audio, command);
+        break;
     case AUDIO_LOOP:
         if (command->slot < AUDIO_SLOTS && audio->loops[command->slot].clip != command->clip) {
             begin_voice(audio, &audio->loops[command->slot], command, true);
@@ -134,6 +171,7 @@ static void obey(Audio *audio, const AudioCommand *command) {
         break;
     case AUDIO_SILENCE:
         memset(audio->voices, 0, sizeof audio->voices);
+        memset(audio->places, 0, sizeof audio->places);
         break;
     }
 }
@@ -155,18 +193,31 @@ static void mix_voice(AudioVoice *voice, float volume, float *out, int frames) {
         float sample = (float)clip->samples[at] * (1.0f - share) + (float)clip->samples[next] * share;
         voice->low += voice->smooth * (sample - voice->low);
         float value = voice->low * (volume / 32768.0f) * voice->fade;
-        voice->fade = voice->fade + voice->fade_step > 1.0f ? 1.0f : voice->fade + voice->fade_step;
+        float fade = voice->fade + voice->fade_step;
+        voice->fade = fade > 1.0f ? 1.0f : fade < 0.0f ? 0.0f : fade;
+        voice->left += GLIDE * (voice->left_to - voice->left);
+        voice->right += GLIDE * (voice->right_to - voice->right);
+        voice->smooth += GLIDE * (voice->smooth_to - voice->smooth);
         out[2 * i] += value * voice->left;
         out[2 * i + 1] += value * voice->right;
         voice->at += voice->step;
     }
 }
 
-static void SDLCALL mix(void *user, Uint8 *stream, int size) {
-    Audio *audio = user;
-    float *out = (float *)(void *)stream;
-    int frames = size / (int)(2 * sizeof *out);
-    memset(stream, 0, (size_t)size);
+/* A place that is not told of any more fades in half a second. */
+static void mix_place(Audio *audio, AudioVoice *place, float *out, int frames) {
+    place->stays -= place->stays > 0 ? frames : 0;
+    if (place->stays <= 0) {
+        place->fade_step = -2.0f / (float)audio->rate;
+    }
+    mix_voice(place, audio->volume, out, frames);
+    if (place->stays <= 0 && place->fade <= 0.0f) {
+        place->clip = NULL;
+    }
+}
+
+void audio_mix(Audio *audio, float *out, int frames) {
+    memset(out, 0, (size_t)frames * 2 * sizeof *out);
     unsigned tail = atomic_load_explicit(&audio->tail, memory_order_relaxed);
     while (tail != atomic_load_explicit(&audio->head, memory_order_acquire)) {
         obey(audio, &audio->ring[tail % AUDIO_RING]);
@@ -174,6 +225,9 @@ static void SDLCALL mix(void *user, Uint8 *stream, int size) {
     }
     for (int i = 0; i < AUDIO_VOICES; i++) {
         mix_voice(&audio->voices[i], audio->volume, out, frames);
+    }
+    for (int i = 0; i < AUDIO_PLACES; i++) {
+        mix_place(audio, &audio->places[i], out, frames);
     }
     for (int i = 0; i < AUDIO_SLOTS; i++) {
         mix_voice(&audio->loops[i], i == AUDIO_SLOT_MUSIC ? audio->music * audio->volume : audio->volume, out, frames);
@@ -183,6 +237,11 @@ static void SDLCALL mix(void *user, Uint8 *stream, int size) {
         out[i] = x > 1.0f ? 1.0f : x < -1.0f ? -1.0f : x;
     }
     atomic_fetch_add_explicit(&audio->frames, (unsigned)frames, memory_order_relaxed);
+}
+
+static void SDLCALL mix(void *user, Uint8 *stream, int size) {
+    float *out = (float *)(void *)stream;
+    audio_mix(user, out, size / (int)(2 * sizeof *out));
 }
 
 bool audio_open(Audio *audio) {
@@ -251,17 +310,33 @@ void audio_silence(Audio *audio) {
     tell(audio, &command);
 }
 
-void audio_hear(Audio *audio, const GameSound *sound, EnfVec3 ear_ws, double yaw_deg) {
+/* A sound of the game as the ears at `ear_ws` have it; no clip: there is none, or it is too faint. */
+static AudioCommand as_heard(Audio *audio, const GameSound *sound, EnfVec3 ear_ws, double yaw_deg) {
     AudioCommand command = {.what = AUDIO_PLAY, .gain = (float)sound->gain, .muffled = (float)sound->muffled};
-    command.clip = next_clip(audio, AUDIO_OWN_COUNT + (int)sound->kind);
-    if (!command.clip || sound->gain < 0.002) {
-        return;
-    }
     EnfVec3 to = enf_sub(sound->apparent_ws, ear_ws);
     double distance = enf_length(to), yaw = yaw_deg * (ENF_PI / 180.0);
     if (distance > 0.3) {
         double right = enf_cos(yaw) * to.x - enf_sin(yaw) * to.z;
         command.pan = (float)(0.85 * right / distance);
     }
-    tell(audio, &command);
+    if (sound->gain >= GAME_GAIN_LEAST) {
+        command.clip = next_clip(audio, AUDIO_OWN_COUNT + (int)sound->kind);
+    }
+    return command;
+}
+
+void audio_hear(Audio *audio, const GameSound *sound, EnfVec3 ear_ws, double yaw_deg) {
+    AudioCommand command = as_heard(audio, sound, ear_ws, yaw_deg);
+    if (command.clip) {
+        tell(audio, &command);
+    }
+}
+
+void audio_hear_speaker(Audio *audio, const GameSpeaker *speaker, EnfVec3 ear_ws, double yaw_deg) {
+    AudioCommand command = as_heard(audio, &speaker->sound, ear_ws, yaw_deg);
+    command.what = speaker->loops ? AUDIO_PLACE : AUDIO_PLAY;
+    command.slot = speaker->id;
+    if (command.clip) {
+        tell(audio, &command);
+    }
 }

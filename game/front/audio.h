@@ -22,7 +22,8 @@ enum {
     AUDIO_VARIANTS = 4,
     AUDIO_KINDS = AUDIO_OWN_COUNT + GAME_SOUND_COUNT,
     AUDIO_VOICES = 32,
-    AUDIO_RING = 256 /**< a power of two */
+    AUDIO_PLACES = 12, /**< sounds that go on somewhere, heard at once */
+    AUDIO_RING = 256   /**< a power of two */
 };
 
 /** 16 bits, mono. */
@@ -33,10 +34,10 @@ typedef struct AudioClip {
 
 /** What the game's thread tells the mixer. */
 typedef struct AudioCommand {
-    enum { AUDIO_PLAY, AUDIO_LOOP, AUDIO_VOLUME, AUDIO_SILENCE } what;
+    enum { AUDIO_PLAY, AUDIO_PLACE, AUDIO_LOOP, AUDIO_VOLUME, AUDIO_SILENCE } what;
     const AudioClip *clip;
     float gain, pan, muffled; /**< pan -1 left .. 1 right; muffled 0..1; of VOLUME gain is sounds', pan is music's */
-    uint32_t slot;            /**< of LOOP: a loop replaces the one of its slot; clip NULL ends it */
+    uint32_t slot; /**< of LOOP: a loop replaces the one of its slot; clip NULL ends it. Of PLACE: the speaker's id */
 } AudioCommand;
 
 enum { AUDIO_SLOT_MUSIC, AUDIO_SLOT_AMBIENT, AUDIO_SLOTS };
@@ -47,6 +48,10 @@ typedef struct AudioVoice {
     float left, right, smooth, low; /**< gains; the low-pass's coefficient and state */
     float fade, fade_step;          /**< loops come and go softly */
     bool loops;
+    /* Of a place: the gains that it goes to, which speaker it is, and frames of the card left to hear of it again. */
+    float left_to, right_to, smooth_to;
+    uint32_t id;
+    int32_t stays;
 } AudioVoice;
 
 typedef struct Audio {
@@ -59,7 +64,7 @@ typedef struct Audio {
     AudioCommand ring[AUDIO_RING];
     atomic_uint head, tail;
     /* The mixer's own: */
-    AudioVoice voices[AUDIO_VOICES], loops[AUDIO_SLOTS];
+    AudioVoice voices[AUDIO_VOICES], places[AUDIO_PLACES], loops[AUDIO_SLOTS];
     float volume, music;
     atomic_uint frames; /**< mixed so far, in thousands: for tests */
 } Audio;
@@ -77,6 +82,10 @@ void audio_play(Audio *audio, int kind);
 void audio_loop(Audio *audio, uint32_t slot, int kind); /**< kind < 0: none */
 /** A sound of the game, for ears at `ear_ws` that look along yaw. */
 void audio_hear(Audio *audio, const GameSound *sound, EnfVec3 ear_ws, double yaw_deg);
+/** What a place sounds like. One that goes on ends softly when it is not told of for half a second. */
+void audio_hear_speaker(Audio *audio, const GameSpeaker *speaker, EnfVec3 ear_ws, double yaw_deg);
+/** The mixer: `frames` of left and right. The card's thread calls it; a test may, where there is no device. */
+void audio_mix(Audio *audio, float *out, int frames);
 void audio_silence(Audio *audio);
 
 #endif

@@ -129,6 +129,10 @@ static void hear(App *app, const GameState *state) {
     for (uint32_t i = 0; i < count; i++) {
         audio_hear(&app->audio, &sounds[i], state->eye_ws, state->yaw_deg);
     }
+    const GameSpeaker *speakers = app->audio.device ? game_speakers(app->play.game, &count) : NULL;
+    for (uint32_t i = 0; speakers && i < count; i++) {
+        audio_hear_speaker(&app->audio, &speakers[i], state->eye_ws, state->yaw_deg);
+    }
 }
 
 static void play_tick(App *app) {

@@ -195,7 +195,7 @@ EnfResult game_create(Game **out, const EnfMap *map, const GameDef *def, const E
     game->def = *def;
     game->mover_room = map->movers_count;
     EnfResult result = make(game, error);
-    if (result == ENF_OK && !sim_gates_create(game)) {
+    if (result == ENF_OK && (!sim_gates_create(game) || !sim_speakers_create(game))) {
         result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the doorways");
     }
     if (result != ENF_OK) {
@@ -222,6 +222,7 @@ void game_destroy(Game *game) {
 #define GAME_FREE(array, count) enf_free(&allocator, game->array, (count), sizeof *game->array);
     GAME_ARRAYS(GAME_FREE)
 #undef GAME_FREE
+    enf_free(&allocator, game->speakers, game->speaker_room, sizeof *game->speakers);
     enf_free(&allocator, game, 1, sizeof *game);
 }
 

@@ -87,6 +87,7 @@ typedef struct GameState {
     X(LIFT, "lift_start")                                                                                                      \
     X(LIFT_STOPS, "lift_stop")                                                                                                 \
     X(LIFT_RINGS, "lift_ding")                                                                                                 \
+    X(LIFT_HUMS, "lift_hum")                                                                                                   \
     X(SWITCH, "switch")                                                                                                        \
     X(TAKE, "pick_up")                                                                                                         \
     X(TAKE_KEY, "pick_up_key")                                                                                                 \
@@ -99,7 +100,16 @@ typedef struct GameState {
     X(CAUGHT, "caught")                                                                                                        \
     X(DELIVERED, "delivered")                                                                                                  \
     X(WON, "win")                                                                                                              \
-    X(LOST, "lose")
+    X(LOST, "lose")                                                                                                            \
+    X(CLOCK_TICKS, "clock_tick")                                                                                               \
+    X(CLOCK_TOCKS, "clock_tock")                                                                                               \
+    X(CLOCK_CHIMES, "clock_chime")                                                                                             \
+    X(CLOCK_STRIKES, "clock_strike")                                                                                           \
+    X(TRAIN, "train")                                                                                                          \
+    X(TRAIN_WHISTLES, "train_whistle")                                                                                         \
+    X(FOUNTAIN, "fountain")                                                                                                    \
+    X(BIRD, "bird")                                                                                                            \
+    X(WINGS, "wings")
 
 typedef enum GameSoundKind {
 #define GAME_SOUND_ENUM(name, file) GAME_SOUND_##name,
@@ -118,6 +128,15 @@ typedef struct GameSound {
     EnfVec3 apparent_ws; /**< where it seems to come from: itself in the same cell, else the first doorway towards it */
     double muffled;      /**< 0 clear .. 1 through shut doors and far around corners */
 } GameSound;
+
+/** What a place or a thing sounds like by itself, as the player hears it: a node says `sound` (clock, train, fountain, bird, wings), an
+ *  elevator hums on its way. */
+typedef struct GameSpeaker {
+    GameSound sound;
+    uint32_t id; /**< of the speaker */
+    bool loops;  /**< goes on: told ten times a second while it can be heard. Else it begins in this tick */
+} GameSpeaker;
+#define GAME_GAIN_LEAST 0.002 /**< of what can be heard */
 
 /** A part of the state, hashed. */
 typedef struct GameField {
@@ -144,5 +163,8 @@ const EnfPortals *game_portals(const Game *game);
 const GameState *game_state(const Game *game);
 /** Sounds that began in the last tick. */
 const GameSound *game_sounds(const Game *game, uint32_t *count);
+/** What sounds by itself and can be heard now: to be asked once a tick, or never: nothing of the state depends on it. Valid until the
+ *  next call. No heap. */
+const GameSpeaker *game_speakers(Game *game, uint32_t *count);
 
 #endif

@@ -10,13 +10,16 @@
 #define MUFFLE 10.0
 
 void sim_hear(Game *game, GameSound *sound) {
+    sim_hear_in(game, sound, enf_map_locate(game->map, enf_add(sound->at_ws, enf_v3(0.0, 0.3, 0.0))));
+}
+
+void sim_hear_in(Game *game, GameSound *sound, uint32_t cell) {
     const EnfCharacter *body = &game->player.body;
     EnfVec3 ears = enf_character_eye(body);
     if (!game->ears_ready) { /* once a tick, and only if something sounds */
         sim_ways_find(game, &game->ears, ears, body->cell, HEARD_MOST);
         game->ears_ready = true;
     }
-    uint32_t cell = enf_map_locate(game->map, enf_add(sound->at_ws, enf_v3(0.0, 0.3, 0.0)));
     uint32_t last;
     double way = sim_ways_to(game, &game->ears, sound->at_ws, cell, &last);
     double straight = enf_length(enf_sub(sound->at_ws, ears));

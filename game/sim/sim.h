@@ -4,7 +4,7 @@
 
 #include "sim/game.h"
 
-enum { SIM_SOUNDS_MAX = 64, SIM_KEY_SIZE = 32, SIM_STOPS_MAX = 32, SIM_ROUTE_MAX = 64 };
+enum { SIM_SOUNDS_MAX = 64, SIM_SPOKEN_MAX = 32, SIM_KEY_SIZE = 32, SIM_STOPS_MAX = 32, SIM_ROUTE_MAX = 64 };
 
 /** Metres: how far a hand reaches. */
 #define SIM_REACH 2.0
@@ -86,6 +86,13 @@ typedef struct SimWays {
     uint32_t *heap, *place, heap_count;
 } SimWays;
 
+/** Something that sounds by itself (speakers.c). Not hashed: of the map alone. */
+typedef struct SimSpeaker {
+    EnfVec3 at;                       /**< at rest */
+    uint32_t id, voice, mover, cell;  /**< mover ENF_NONE: it stands still */
+    int64_t phase_ticks, every_ticks; /**< of `phase`, `sound_every` */
+} SimSpeaker;
+
 struct Game {
     GameDef def;
     EnfAllocator allocator;
@@ -120,6 +127,10 @@ struct Game {
     GameExhibitView *exhibit_views;
     GameSound sounds[SIM_SOUNDS_MAX];
     uint32_t sound_count;
+    SimSpeaker *speakers;
+    uint32_t speaker_count, speaker_room;
+    GameSpeaker spoken[SIM_SPOKEN_MAX];
+    uint32_t spoken_count;
     int64_t message_until;
     bool ears_ready;
 };
@@ -190,8 +201,12 @@ double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t c
 /** The way on foot from one place to another, as points; 0 if there is none. */
 uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uint32_t to_cell, EnfVec3 out[SIM_ROUTE_MAX]);
 
-/** Fills in how the player hears a sound. */
+/** Fills in how the player hears a sound; of a cell that is known. */
 void sim_hear(Game *game, GameSound *sound);
+void sim_hear_in(Game *game, GameSound *sound, uint32_t cell);
+
+/** Finds what sounds by itself; false: no memory. */
+bool sim_speakers_create(Game *game);
 
 void sim_show(Game *game);
 

@@ -126,6 +126,11 @@ bool enf_night_create(EnfNight *night, const EnfNightDef *def, EnfError *error) 
     night->portal = 0; /* half-portals stand by their source: the west's only one comes first */
     entity(m, "info_player_start", enf_v3(2, 0, 4), night->west, "");
     entity(m, "trigger_exit", enf_v3(1, 0, 1), night->west, "");
+    if (def->sounds) {
+        entity(m, "fountain", enf_v3(4, 0, 7), night->west, "{\"sound\":\"fountain\"}");
+        entity(m, "clock", enf_v3(14, 2, 6), night->east, "{\"sound\":\"clock\",\"phase\":3598}");
+        entity(m, "unknown", enf_v3(14, 2, 6), night->east, "{\"sound\":\"no such sound\"}");
+    }
     uint32_t vase = entity(m, "prop_exhibit", enf_v3(14, 0.8, 4), night->east,
                            "{\"targetname\":\"vase\",\"title\":\"the vase\",\"value\":3}");
     EnfMover exhibit = mover(m, ENF_MOVER_STILL, vase, (EnfBox3){{-0.125, 0, -0.125}, {0.125, 0.25, 0.125}}, "vase");

@@ -11,7 +11,8 @@ typedef struct EnfNightDef {
     bool guard;  /**< walks z 1 to 7 and back at x 13 in the east, 8 s a way, "guard" */
     bool
         lift; /**< a plate about (6, 0, 7) with stops at 0 and 2 m, "lift", and a button for it, "button", at (7.9, 1.2, 7.9) */
-    bool lamps; /**< a lamp in each room; else nothing is lit, which is the same as evenly lit */
+    bool sounds; /**< a fountain in the west at (4, 0, 7); a clock in the east at (14, 2, 6) that shows 0:59:58 at the start */
+    bool lamps;  /**< a lamp in each room; else nothing is lit, which is the same as evenly lit */
 } EnfNightDef;
 
 typedef struct EnfNight {
