@@ -40,6 +40,7 @@ PLAIN = {
     "lantern": ornaments.lantern,
     "sconce": ornaments.sconce,
     "torch": ornaments.torch,
+    "lamp_post": ornaments.lamp_post,
     "flowers": ornaments.flowers,
     "mirror_frame": ornaments.mirror,
     "mirror_panel": ornaments.mirror_panel,
@@ -103,9 +104,13 @@ VARIANTS = {
     "coffer": lambda size: fittings.coffer(*_coffer_size(size)),
 }
 
+OUT = ".out"
+
 
 def build(name):
-    """Mesh data of a piece: `chair.cloth_red`, `picture.7`, `column.4.500x0.280xmarble_white`."""
+    """Mesh data of a piece: `chair.cloth_red`, `picture.7`, `column.4.500x0.280xmarble_white`; `sconce.out` burns no more."""
+    if name.endswith(OUT):
+        return build(name[: -len(OUT)]).without("flame")
     plain, _, variant = name.partition(".")
     return VARIANTS[plain](variant) if variant else PLAIN[plain]()
 

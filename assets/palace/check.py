@@ -3,7 +3,8 @@
 
 Rooms enough, triangles enough, a file small enough; every piece inside its room and off the walk; every portal planar,
 convex and facing out of its room; every cell closed: each edge of shell and portals, on a grid of 1/4096 m, is run
-through as often one way as the other.  What moves, check_life.py looks at.
+through as often one way as the other.  What moves, check_life.py looks at; how dark the night is,
+check_night.py.
 """
 
 import csv
@@ -17,6 +18,8 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import check_life  # noqa: E402
+import check_night  # noqa: E402
+import openings  # noqa: E402
 import plan  # noqa: E402
 from geometry import cross, depth_inside, dot, newell, scale, sub, unit  # noqa: E402
 from glb import Glb  # noqa: E402
@@ -42,6 +45,7 @@ def main():
     trouble, near = check_pieces(glb)
     problems += trouble + check_way(tour, near) + check_life.check(glb, near, tour.with_name("river.csv"))
     problems += check_lights(glb, rooms) + check_spawn(glb) + check_tour(tour)
+    problems += check_night.check(glb, openings.resolve({room.name: room for room in plan.rooms()}))
     for problem in problems:
         print("FAIL:", problem)
     print(

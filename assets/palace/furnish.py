@@ -70,4 +70,5 @@ def furnish(scene, room, feet):
     if room.name == "Library":
         placer.keep_free(*life.LIFT_AT, life.LIFT_SIZE / 2 + 0.9)
     THEMES[room.theme](placer)
+    themes.by_night(placer)
     return life.enliven(placer)

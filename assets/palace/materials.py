@@ -65,7 +65,7 @@ MATERIALS = {
     "ivory": Material((0.82, 0.77, 0.64), rough=0.4),
     "ebony": Material((0.035, 0.03, 0.028), rough=0.3),
     "earth": Material((0.09, 0.06, 0.04)),
-    "mirror": Material((0.7, 0.75, 0.78), rough=0.05),
+    "mirror": Material((0.3, 0.35, 0.4), rough=0.05),
     "leaves": Material((0.1, 0.2, 0.05), "leaves", 1.0),
     "cloth_red": Material((0.3, 0.03, 0.04), "cloth_red", 0.5),
     "cloth_blue": Material((0.05, 0.12, 0.3), "cloth_blue", 0.5),
@@ -81,5 +81,6 @@ MATERIALS = {
     "carpet_red": Material((0.3, 0.06, 0.06), "carpet_red"),
     "carpet_blue": Material((0.08, 0.12, 0.25), "carpet_blue"),
     "carpet_green": Material((0.07, 0.15, 0.08), "carpet_green"),
-    "sky": Material((0.4, 0.6, 0.9), "sky", 1.0, unlit=True),
+    "sky": Material((0.02, 0.03, 0.08), "sky", 1.0, unlit=True),
+    "moon": Material((0.9, 0.9, 0.84), "moon", 1.0, unlit=True),
 }

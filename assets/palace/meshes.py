@@ -58,6 +58,16 @@ class Mesh:
         self.points = [function(point) for point in self.points]
         return self
 
+    def without(self, material):
+        """A copy that lacks the faces of one material."""
+        kept = [i for i, own in enumerate(self.materials) if own != material]
+        used = {point: number for number, point in enumerate(sorted({p for i in kept for p in self.faces[i]}))}
+        copy = Mesh()
+        copy.points = [self.points[p] for p in used]
+        for i in kept:
+            copy._corner_face([used[p] for p in self.faces[i]], self.materials[i], self.uvs[i], self.smooth[i])
+        return copy
+
     def weld(self):
         """Shares equal points, so that the exporter can share vertices; for flat-shaded meshes."""
         index, kept = {}, []

@@ -6,6 +6,7 @@ The same conventions as furniture: wall pieces have their back at y = 0 and face
 import math
 
 from furniture import block, joined, leg, octagon, plinth
+from geometry import add, cross, scale, unit
 from meshes import Mesh, box, lathe, prism, tube
 
 CANDLE = [(0.014, 0.0), (0.013, 0.12)]
@@ -154,6 +155,30 @@ def torch():
     )
     body.append(lathe([(0.03, 0.0), (0.09, 0.06), (0.1, 0.16), (0.0, 0.1)], "iron", 6), (0, 0.18, 0.04))
     return body.append(lathe([(0.07, 0.0), (0.06, 0.1), (0.025, 0.2), (0.0, 0.3)], "flame", 5), (0, 0.18, 0.16))
+
+
+def lamp_post():
+    """A lamp of the courtyard: an iron post with a lantern of four panes."""
+    foot = [(0.16, 0.0), (0.16, 0.08), (0.09, 0.14), (0.07, 0.5), (0.045, 0.6), (0.035, 2.3), (0.09, 2.4), (0.0, 2.42)]
+    body = lathe(foot, "iron", 8)
+    body.append(block((0.2, 0.2, 0.3), "flame", (0, 0, 2.45)))
+    for x in (-0.11, 0.11):
+        for y in (-0.11, 0.11):
+            body.append(block((0.03, 0.03, 0.34), "iron", (x, y, 2.42)))
+    body.append(block((0.27, 0.27, 0.02), "iron", (0, 0, 2.425)))
+    return body.append(lathe([(0.22, 0.0), (0.1, 0.12), (0.03, 0.16), (0.03, 0.22), (0.0, 0.26)], "iron", 4), (0, 0, 2.76))
+
+
+def moon(at, radius=1.05, sides=32):
+    """The full moon: a disc that looks at the middle of the courtyard."""
+    axis = unit(at)
+    across = unit((-axis[1], axis[0], 0.0))
+    upward = cross(axis, across)
+    rim = [(math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)) for k in range(sides)]
+    points = [add(at, add(scale(across, -radius * x), scale(upward, radius * y))) for x, y in rim]
+    disc = Mesh()
+    disc.face(points, "moon", [(0.5 + 0.5 * x, 0.5 + 0.5 * y) for x, y in rim])
+    return disc
 
 
 def vase(kind=0):

@@ -99,7 +99,7 @@ def still_life(size, seed):
     return _brushed(image, seed)
 
 
-def _brushed(image, seed, strength=0.06):
+def _brushed(image, seed, strength=0.01):
     """Strokes, and varnish that has darkened towards the frame."""
     size = image.shape[0]
     x, y = coordinates(size)
@@ -183,7 +183,7 @@ def carpet(field, border, accent, seed):
     image = np.where(
         (np.abs(edge - 0.085) < 0.008)[..., None] | (np.abs(edge - 0.03) < 0.005)[..., None], rgb(accent), image
     )
-    pile = 1 + 0.06 * noise(size, seed, 0.7)
+    pile = 1 + 0.015 * noise(size, seed, 1.0)
     return np.clip(image * pile[..., None], 0, 1)
 
 

@@ -5,6 +5,7 @@ import random
 import zlib
 from dataclasses import dataclass
 
+import night
 from geometry import add, bounds, centroid, depth_inside, dot, scale, sub
 from shell import Wall
 
@@ -44,6 +45,7 @@ class Placer:
         self.solids = []  # convex polygons in the plan that pieces keep out of
         self.taken = {i: [] for i in range(len(self.walls))}  # per wall: (u0, u1, z0, z1) in use
         self.count = self.lights = 0  # pieces and lights put so far; they number the objects
+        self.candles = night.Candles(room)
         for wall, own in zip(room.walls, self.walls):
             self._mark_openings(wall, own)
 
@@ -97,7 +99,8 @@ class Placer:
         if height == LIFT:
             height -= min(0.0, self.shape(name).low[2])
         number = f"{self.room.name}_{name.partition('.')[0]}_{self.count}"
-        self.scene.piece(self.room.name, number, name, (*at[:2], self.room.floor + height), turn, extras)
+        burning = self.candles.kindle(name, at, turn, height)
+        self.scene.piece(self.room.name, number, burning, (*at[:2], self.room.floor + height), turn, extras)
         self.last = (at[:2], turn, height)  # of the piece put last
         if solid:
             self.solids.append(self.outline(name, at, turn))

@@ -145,7 +145,7 @@ class Scene:
         item = self._object(name, data, self.rooms[room_name], sub(at, self.origins[room_name]))
         item.rotation_euler = (0.0, 0.0, turn)
         for key, value in (extras or {}).items():
-            item[key] = value
+            item[key] = round(value, 3) if isinstance(value, float) else value
         return item
 
     def _object(self, name, data, parent, location):
@@ -182,7 +182,7 @@ class Scene:
         item = self._object(name, data, None, at)
         item.rotation_euler = (0.0, 0.0, turn)
         for key, value in extras.items():
-            item[key] = value
+            item[key] = round(value, 3) if isinstance(value, float) else value
         return item
 
     def animate(self, item, rows, origin=(0.0, 0.0, 0.0)):

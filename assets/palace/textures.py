@@ -226,14 +226,36 @@ def water():
 
 
 def sky():
-    """The dome's picture: up is from the horizon to the zenith, across is the folded compass."""
-    size = 512
+    """The dome's picture by night: up is from the horizon to the zenith, across is the folded compass."""
+    size = 1024
     x, y = coordinates(size)
-    height = np.sqrt(y)
-    clear = mix(rgb("d9e4ea"), rgb("4f86c6"), height * 1.25)
-    cloud = noise(size, 95, 1.7, (2.2, 1.0)) + 0.3 * noise(size, 96, 1.2)
-    cover = np.clip(cloud * 0.5 - 0.15, 0, 1) * np.clip(y * 6, 0, 1) * np.clip((1 - y) * 3, 0, 1)
-    return mix(clear, rgb("fbf8f2"), cover)
+    clear = mix(rgb("24365e"), rgb("0a1230"), np.sqrt(y) * 1.15)
+    glow = sum(_starlight(size, seed, number, brightness) for seed, number, brightness in ((1, 600, 0.4), (2, 200, 0.7), (3, 60, 1.0)))
+    cloud = noise(size, 95, 1.9, (2.4, 1.0)) + 0.3 * noise(size, 96, 1.3)
+    cover = np.clip(cloud * 0.45 - 0.25, 0, 1) * np.clip(y * 6, 0, 1) * np.clip((1 - y) * 3, 0, 1)
+    night = np.clip(clear + glow[..., None] * np.array([1.0, 0.97, 0.9]), 0, 1)
+    return mix(night, rgb("3a4a70"), cover)
+
+
+def _starlight(size, seed, number, brightness):
+    """Stars strewn evenly over the dome: fewer towards the zenith, where the picture is gathered to a point."""
+    rng = np.random.default_rng(700 + seed)
+    field = np.zeros((size, size))
+    across, high = rng.integers(1, size - 1, number), (np.arcsin(rng.uniform(0.0, 0.97, number)) / (np.pi / 2) * size).astype(int)
+    for px, py, light in zip(across, np.clip(high, 1, size - 2), rng.uniform(0.3, 1.0, number) * brightness):
+        field[py, px] += light
+        for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+            field[py + dy, px + dx] += 0.35 * light
+    return field
+
+
+def moon():
+    """The full moon: bright, with seas, a little darker at its rim."""
+    size = 64
+    x, y = coordinates(size)
+    seas = np.clip(noise(size, 98, 2.0) * 0.9 + 0.1, 0, 1)
+    face = mix(rgb("f7f3e2"), rgb("b9bcc0"), seas * 0.75)
+    return face * (1.0 - 0.25 * np.clip(np.hypot(x - 0.5, y - 0.5) * 2, 0, 1) ** 4)[..., None]
 
 
 def cloth(colour, seed):
@@ -284,6 +306,7 @@ SURFACES = {
     "roof_tiles": roof_tiles,
     "water": water,
     "sky": sky,
+    "moon": moon,
     "leaves": leaves,
     "cloth_red": lambda: cloth("8c1f26", 101),
     "cloth_blue": lambda: cloth("2c4a78", 102),

@@ -2,6 +2,7 @@
 
 import math
 
+import night
 from geometry import add, lerp, scale
 from meshes import tube
 from openings import WELLS
@@ -26,7 +27,8 @@ RUGS = {
 PORTRAITS, SCENES = (4, 5, 6, 7, 12, 14), (0, 1, 2, 3, 8, 9, 10, 11, 13, 15)
 DARK_WALLS = {"wood_panel": 1.5, "brick": 1.9, "stone_wall": 1.35}  # what swallows light is given more of it
 BRIGHTNESS = 1.8  # over the candelas below; one place to make the whole palace lighter
-WARM, CANDLE, DAY = (1.0, 0.85, 0.64), (1.0, 0.72, 0.42), (0.86, 0.93, 1.0)
+LAMPS = 0.46  # and over those of lamps that light a whole room: what is bright is judged by what is dark
+WARM, CANDLE = (1.0, 0.85, 0.64), (1.0, 0.72, 0.42)
 
 
 # ---- shared gestures -----------------------------------------------------------------------------------------------
@@ -43,6 +45,12 @@ def picture_names(p, kind, numbers):
 
 
 def light(p, at, height, candela, colour=WARM, reach=None):
+    """The light of a lamp, where lamps burn (night.py)."""
+    if night.lit(p.room):
+        shine(p, at, height, LAMPS * candela, colour, reach)
+
+
+def shine(p, at, height, candela, colour, reach=None):
     candela *= BRIGHTNESS * DARK_WALLS.get(p.room.wall, 1.0)
     p.scene.light(
         p.room.name, p.lights, (*at, p.room.floor + height), candela, colour, reach or 4.0 + candela**0.5 * 1.3
@@ -65,6 +73,14 @@ def chandeliers(p, name="chandelier", columns=1, rows=1, candela=38.0, drop=0.0,
             if rose and p.room.top != "coffer" and not drop:
                 p.add("rose", at, 0.0, p.room.ceiling - p.room.floor - 0.003, solid=False)
             light(p, at, top - (1.45 if name == "chandelier_grand" else 1.25), candela)
+
+
+def by_night(p):
+    """The light of a room that is not lit as a whole: of its candles; where none burns, a shimmer in its middle."""
+    for place, candela in p.candles.pools:
+        shine(p, place[:2], place[2], candela, night.CANDLELIGHT)
+    if not p.lights or night.dark(p.room):
+        shine(p, p.centre, 0.75 * (p.room.spring - p.room.floor), night.SHIMMER, night.MOON)
 
 
 def _cable(p, at, top, rise):
@@ -100,7 +116,9 @@ def fire(p, walls=None):
     )
     u = (u0 + u1) / 2
     own = p.walls[wall]
-    light(p, add(own.point(u, 0)[:2], scale(own.inward, 0.9)), 0.7, 5.0, (1.0, 0.5, 0.2), 5.0)
+    embers = night.dark(p.room)
+    glow = (1.5, (1.0, 0.28, 0.08), 3.0) if embers else (5.0, (1.0, 0.5, 0.2), 5.0)
+    shine(p, add(own.point(u, 0)[:2], scale(own.inward, 0.9)), 0.7, *glow)
     if p.room.spring - p.room.floor > 3.6:
         mirror(p, wall, u, 1.5)
     return True
@@ -461,7 +479,7 @@ def aisle(p):
 
 def rotunda(p):
     _ring(p, "statue", 5.1)
-    _ring_lights(p, 4, 3.1, 3.4, 26.0)
+    _ring_lights(p, 4, 3.1, 3.2, 17.0)
     p.hang("sconce", 2.0, 8)
 
 
@@ -523,7 +541,7 @@ def stairs(p):
         consoles(p, 1)
         p.place("statue.2", near=p.room.footprint[2])
     p.hang("sconce" if p.room.floor >= 0 else "torch", 1.9, 4)
-    _off_well_light(p, 30.0 if p.room.floor >= 0 else 18.0)
+    _off_well_light(p, 20.0 if p.room.floor >= 0 else 18.0)
 
 
 def landing(p):

@@ -2,11 +2,12 @@
 
 import math
 
+import night
 from geometry import add, lerp, scale
 from meshes import tube
+from ornaments import moon
 from themes import (
     CANDLE,
-    DAY,
     PORTRAITS,
     SCENES,
     chandeliers,
@@ -15,6 +16,7 @@ from themes import (
     long_table_group,
     pictures,
     sconces,
+    shine,
     table_group,
 )
 
@@ -115,7 +117,7 @@ def orangery(p):
             0.5,
         )
         p.add("lantern", at, 0, p.room.ceiling - p.room.floor - 0.005, solid=False)
-        light(p, at, 2.7, 30.0, DAY)
+        light(p, at, 2.7, 30.0)
 
 
 def studio(p):
@@ -240,13 +242,14 @@ def court(p):
             for k in range(3):
                 p.put(f"tree.{k % 2}", (sx * 10.9, sy * (2.4 + 2.2 * k)))
             p.put("bench", (sx * 6.2, sy * 2.7), 0.0 if sy > 0 else math.pi)
+        for sy in (-1, 1):
+            p.place("lamp_post", near=(3.4 * sx, 3.2 * sy))
     _pilasters(p)
     for wall in range(4):
         p.fill("tree.1", spacing=2.6, walls=[wall], most=5)
     p.hang("torch", 2.1, 8)
-    for x in (-7.0, 7.0):
-        for y in (-5.0, 5.0):
-            light(p, (x, y), 12.0, 260.0, DAY, reach=30.0)
+    p.scene.local_mesh(p.room.name, "moon", moon(night.MOON_AT))
+    shine(p, night.MOON_AT[:2], night.MOON_AT[2], night.MOON_CANDELA, night.MOON, night.MOON_REACH)
 
 
 def _pilasters(p):
