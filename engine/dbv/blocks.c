@@ -102,6 +102,28 @@ void enf_dbv_relink(EnfDbvIndex *index, uint32_t object, EnfBox3f box) {
     set_lane(&index->pool, &enf_dbv_block(&index->pool, slot / ENF_KD_BLOCK)->boxes, slot % ENF_KD_BLOCK, box);
 }
 
+static float higher(float a, float b) {
+    return a > b ? a : b;
+}
+
+static float lower(float a, float b) {
+    return a < b ? a : b;
+}
+
+void enf_dbv_cut(EnfDbvIndex *index, uint32_t slot, EnfBox3f by) {
+    EnfDbvBlock *block = enf_dbv_block(&index->pool, slot / ENF_KD_BLOCK);
+    EnfBox3f old = enf_dbv_lane(&block->boxes, slot % ENF_KD_BLOCK);
+    EnfBox3f box = {{higher(old.min.x, by.min.x), higher(old.min.y, by.min.y), higher(old.min.z, by.min.z)},
+                    {lower(old.max.x, by.max.x), lower(old.max.y, by.max.y), lower(old.max.z, by.max.z)}};
+    bool some = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
+    if (some) { /* else the object is elsewhere, and its other boxes tell: this one stays */
+        set_lane(&index->pool, &block->boxes, slot % ENF_KD_BLOCK, box);
+        if (block->place < index->places.nodes_first) {
+            index->places.fits[block->place].loose = true;
+        }
+    }
+}
+
 static void copy_lane(EnfKdBlock *to, uint32_t a, const EnfKdBlock *from, uint32_t b) {
     to->min_x[a] = from->min_x[b];
     to->min_y[a] = from->min_y[b];

@@ -128,6 +128,21 @@ struct EnfDbvIndex {
     EnfDbvCounters counters, total;
 };
 
+/** Asks for the cache line at `address`; a hint. */
+static inline void enf_dbv_prefetch(const void *address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
+static inline void enf_dbv_prefetch_block(const EnfDbvBlock *block) {
+    for (size_t at = 0; at < sizeof *block; at += 64) {
+        enf_dbv_prefetch((const char *)block + at);
+    }
+}
+
 /* blocks.c */
 void enf_dbv_pool_destroy(EnfDbvPool *pool, const EnfAllocator *allocator);
 size_t enf_dbv_pool_bytes(const EnfDbvPool *pool);
@@ -137,6 +152,8 @@ bool enf_dbv_link(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f 
 uint32_t enf_dbv_unlink(EnfDbvIndex *index, uint32_t slot);
 /** Another box for an object's first link. */
 void enf_dbv_relink(EnfDbvIndex *index, uint32_t object, EnfBox3f box);
+/** Takes from a box what lies outside of `by`. It stays where it hangs: no box of a place has to grow. */
+void enf_dbv_cut(EnfDbvIndex *index, uint32_t slot, EnfBox3f by);
 EnfBox3f enf_dbv_lane(const EnfKdBlock *boxes, uint32_t lane);
 /** A pyramid relative to a cell's origin, as planes that test the world boxes of blocks: never tighter. */
 void enf_dbv_planes(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid, EnfSimdPlanes *out);
@@ -159,6 +176,52 @@ void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
 void enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume);
 /** Hangs a box on a place and counts it. Without memory, the index takes all objects in again in the next frame. */
 void enf_dbv_link_to(EnfDbvIndex *index, uint32_t object, uint32_t place, EnfBox3f box);
+
+/** A way down the tree over cells, parents before children: `next` gives a node or cell, `enter` has its children come, before all
+ *  else that waits. Where a place is not entered, nothing beneath it comes. */
+typedef struct EnfDbvWalk {
+    const EnfMap *map;
+    uint32_t cells_first;
+    uint32_t item, item_end; /**< of cell_blocks: cells of the leaf entered last */
+    uint32_t depth, stack[ENF_KD_MAX_DEPTH + 1];
+} EnfDbvWalk;
+
+/** Begins with the root. */
+static inline EnfDbvWalk enf_dbv_walk(const EnfDbvPlaces *places) {
+    EnfDbvWalk walk;
+    walk.map = places->map;
+    walk.cells_first = places->cells_first;
+    walk.item = walk.item_end = 0;
+    walk.depth = places->map->cell_nodes_count > 0 ? 1 : 0;
+    walk.stack[0] = 0;
+    return walk;
+}
+
+/** ENF_NONE at the end. */
+static inline uint32_t enf_dbv_walk_next(EnfDbvWalk *walk) {
+    while (walk->item < walk->item_end) {
+        uint32_t i = walk->item++;
+        uint32_t cell = walk->map->cell_blocks[i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
+        if (cell != ENF_NONE) {
+            return walk->cells_first + cell;
+        }
+    }
+    return walk->depth > 0 ? walk->stack[--walk->depth] : ENF_NONE;
+}
+
+static inline void enf_dbv_walk_enter(EnfDbvWalk *walk, uint32_t place) {
+    if (place >= walk->cells_first) {
+        return; /* a cell: nothing of this tree is beneath */
+    }
+    const EnfKdNode *node = &walk->map->cell_nodes[place];
+    if (node->block_count == 0) {
+        walk->stack[walk->depth++] = node->link;
+        walk->stack[walk->depth++] = place + 1;
+    } else {
+        walk->item = node->link * ENF_KD_BLOCK;
+        walk->item_end = walk->item + node->block_count * ENF_KD_BLOCK;
+    }
+}
 
 /* fit.c */
 /** Nothing hangs anywhere. */
@@ -201,6 +264,8 @@ void enf_dbv_wheel_destroy(EnfDbvWheel *wheel, const EnfAllocator *allocator);
 bool enf_dbv_wheel_reserve(EnfDbvIndex *index, uint32_t count);
 void enf_dbv_wheel_add(EnfDbvIndex *index, uint32_t object);
 void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object);
+/** Asks for the memory that taking an object out will touch first; a hint. */
+void enf_dbv_wheel_prefetch(const EnfDbvIndex *index, uint32_t object);
 /** Takes out all that are due at or before `tick`, into index->due, in order of (expiry tick, object). False without memory. */
 bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick);
 
@@ -213,21 +278,9 @@ bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index);
 enum { ENF_DBV_DRAWN_PERIOD = 16 };
 /** Makes and hangs a new volume for a living object. */
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause);
-
-/** Asks for the cache line at `address`; a hint. */
-static inline void enf_dbv_prefetch(const void *address) {
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-#else
-    (void)address;
-#endif
-}
-
-static inline void enf_dbv_prefetch_block(const EnfDbvBlock *block) {
-    for (size_t at = 0; at < sizeof *block; at += 64) {
-        enf_dbv_prefetch((const char *)block + at);
-    }
-}
+/** Cuts a volume that has long to live to what its object may occupy for a short while, where it hangs. False where that would not
+ *  be sooner. For policies that keep off seen cells. */
+bool enf_dbv_shorten(EnfDbvIndex *index, uint32_t object);
 
 /* index.c */
 bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item); /**< false without memory */

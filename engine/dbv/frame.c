@@ -6,7 +6,7 @@
 
 /* Objects that were exposed and not drawn get new volumes, so many a frame and a share of the rest: when a long view opens, or the eye
  * jumps, it is paid for in instalments. The others are exposed again in the next frame, which costs less. */
-#define RENEWED_A_FRAME 32U
+#define RENEWED_A_FRAME 8U
 #define RENEWED_SHARE 8U
 
 /* ---- begin ------------------------------------------------------------------------------------------------------ */
@@ -70,6 +70,7 @@ static void prefetch_due(const EnfDbvIndex *index, uint32_t i) {
         for (uint32_t k = 0; k < volume->link_count; k++) {
             enf_dbv_prefetch_block(enf_dbv_block(pool, volume->links[k] / ENF_KD_BLOCK));
         }
+        enf_world_prefetch_named(index->world, due[i + 8]);
     }
     if (i + 4 < index->due.count) {
         const EnfDbvVolume *volume = &index->volumes[due[i + 4]];
@@ -157,8 +158,6 @@ static uint32_t gather(EnfDbvIndex *index, const Look *look, const EnfDbvBlock *
         uint32_t object = block->boxes.item[lane] / ENF_DBV_LINKS;
         EnfBox3f box = enf_dbv_lane(&block->boxes, lane);
         if (is_near(look, &box)) {
-            enf_dbv_prefetch(&index->volumes[object]);
-            enf_world_prefetch(index->world, object);
             index->failed = !enf_dbv_list_add(index, &index->candidates, object) || index->failed;
             count++;
         }
@@ -219,49 +218,45 @@ static void test_own(EnfDbvIndex *index, uint32_t place, const Look *look) {
     }
 }
 
-static void test_cell(EnfDbvIndex *index, uint32_t cell, const Look *look) {
-    uint32_t place = index->places.cells_first + cell;
-    if (is_near(look, &index->places.fits[place].all)) {
-        test_tree(index, cell, look);
-        test_own(index, place, look);
+static void test_place_and_tree(EnfDbvIndex *index, uint32_t place, const Look *look) {
+    if (place >= index->places.cells_first) {
+        test_tree(index, place - index->places.cells_first, look);
     }
+    test_own(index, place, look);
 }
 
 /* All places whose volumes reach into the seen cell. */
 static void test_all(EnfDbvIndex *index, const Look *look) {
-    const EnfMap *map = index->map;
-    uint32_t stack[ENF_KD_MAX_DEPTH + 1];
-    uint32_t depth = 0;
-    if (map->cell_nodes_count > 0) {
-        stack[depth++] = 0;
-    }
-    while (depth > 0) {
-        uint32_t at = stack[--depth];
-        const EnfKdNode *node = &map->cell_nodes[at];
-        if (!is_near(look, &index->places.fits[at].all)) {
-            continue;
-        }
-        test_own(index, at, look);
-        if (node->block_count == 0) {
-            stack[depth++] = node->link;
-            stack[depth++] = at + 1;
-            continue;
-        }
-        for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
-            uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
-            if (cell != ENF_NONE) {
-                test_cell(index, cell, look);
-            }
+    const EnfDbvPlaces *places = &index->places;
+    EnfDbvWalk walk = enf_dbv_walk(places);
+    for (uint32_t place = enf_dbv_walk_next(&walk); place != ENF_NONE; place = enf_dbv_walk_next(&walk)) {
+        if (is_near(look, &places->fits[place].all)) {
+            test_place_and_tree(index, place, look);
+            enf_dbv_walk_enter(&walk, place);
         }
     }
-    if (index->places.parents[index->places.cells_first + look->cell] == ENF_NONE) {
-        test_cell(index, look->cell, look); /* OUTSIDE: what lies in no room */
+    uint32_t cell = places->cells_first + look->cell;
+    if (places->parents[cell] == ENF_NONE && is_near(look, &places->fits[cell].all)) {
+        test_place_and_tree(index, cell, look); /* OUTSIDE: what lies in no room */
+    }
+}
+
+/* What comes into sight was hidden, and its memory is cold: asked for ahead of its turn, and what its motion names a little later. */
+static void prefetch_candidate(const EnfDbvIndex *index, uint32_t i) {
+    const uint32_t *candidates = index->candidates.items;
+    if (i + 12 < index->candidates.count) {
+        enf_dbv_prefetch(&index->volumes[candidates[i + 12]]);
+        enf_world_prefetch(index->world, candidates[i + 12]);
+    }
+    if (i + 6 < index->candidates.count) {
+        enf_world_prefetch_named(index->world, candidates[i + 6]);
     }
 }
 
 /* The objects themselves: the volumes only said which might be seen. */
 static void expose_candidates(EnfDbvIndex *index, const Look *look) {
     for (uint32_t i = 0; i < index->candidates.count; i++) {
+        prefetch_candidate(index, i);
         EnfDbvExposure *exposure = expose(index, index->candidates.items[i]);
         if (exposure != NULL && !exposure->drawn && shows(index, look->cell, look->pyramid, exposure->box)) {
             exposure->drawn = true;
@@ -304,15 +299,34 @@ static bool stays(const EnfDbvIndex *index, const EnfDbvExposure *exposure) {
     return exposure->drawn || (young && volume->period <= (uint32_t)ENF_DBV_DRAWN_PERIOD);
 }
 
-/* New volumes for what was exposed. */
+static void prefetch_exposed(const EnfDbvIndex *index, uint32_t i) {
+    if (i + 6 < index->exposure_count && !index->exposures[i + 6].drawn) {
+        const EnfDbvVolume *volume = &index->volumes[index->exposures[i + 6].object];
+        for (uint32_t k = 0; k < volume->link_count; k++) {
+            enf_dbv_prefetch_block(enf_dbv_block(&index->pool, volume->links[k] / ENF_KD_BLOCK));
+        }
+        enf_dbv_wheel_prefetch(index, index->exposures[i + 6].object);
+    }
+}
+
+/* New volumes for what was exposed, or the old ones cut. */
 static void renew_exposed(EnfDbvIndex *index) {
     uint32_t renewed = 0;
     uint32_t most = RENEWED_A_FRAME + (index->exposure_count - index->drawn.count) / RENEWED_SHARE;
+    bool shortens = enf_dbv_keeps_off_seen(index);
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];
-        if (!stays(index, exposure) && (exposure->drawn || renewed < most)) {
-            enf_dbv_renew(index, exposure->object, exposure->drawn ? ENF_DBV_DRAWN : ENF_DBV_SEEN);
-            renewed += exposure->drawn ? 0U : 1U;
+        prefetch_exposed(index, i);
+        if (stays(index, exposure)) {
+            continue;
+        }
+        if (exposure->drawn) {
+            enf_dbv_renew(index, exposure->object, ENF_DBV_DRAWN);
+        } else if (renewed < most) {
+            renewed++;
+            if (!shortens || !enf_dbv_shorten(index, exposure->object)) {
+                enf_dbv_renew(index, exposure->object, ENF_DBV_SEEN);
+            }
         }
     }
 }

@@ -10,6 +10,8 @@
  * comes into sight, the volumes of half the world reach into the room behind it, and that frame wakes them all (PITFALLS 23).
  * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). */
 #define APPROACH 0.3
+/* What is shortened ends in that many ticks and a part of so many more, each object at its own. */
+#define SHORT_PERIODS 32U
 /* The first volumes, made before anything was seen, end over so many ticks. */
 #define BLIND_PERIODS 48U
 
@@ -208,4 +210,27 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     }
     hang(index, object, period);
     enf_dbv_wheel_add(index, object);
+}
+
+/* A room that comes into sight shows the volumes of all that is in it, made when it was out of sight: large, and many in one frame.
+ * To make them anew in that frame would cost more than the whole frame else does. Cut in place, they are out of the way, and are
+ * made anew when they end: few a tick. */
+bool enf_dbv_shorten(EnfDbvIndex *index, uint32_t object) {
+    EnfDbvVolume *volume = &index->volumes[object];
+    uint32_t hash = (object * UINT32_C(2654435761)) >> 16;
+    uint32_t period = DRAWN_PERIOD + hash % SHORT_PERIODS;
+    int64_t now = enf_world_tick(index->world);
+    if (volume->expiry_tick - now <= 2 * (int64_t)period) {
+        return false;
+    }
+    EnfBox3f box = bound_for(index, object, period);
+    for (uint32_t i = 0; i < volume->link_count; i++) {
+        enf_dbv_cut(index, volume->links[i], box);
+    }
+    enf_dbv_wheel_remove(index, object);
+    volume->period = period;
+    volume->expiry_tick = now + (int64_t)period;
+    enf_dbv_wheel_add(index, object);
+    index->counters.reinserted++;
+    return true;
 }

@@ -19,35 +19,21 @@ bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell) {
 /* ---- cells of a box --------------------------------------------------------------------------------------------- */
 
 uint32_t enf_dbv_cells_of(EnfDbvIndex *index, EnfBox3f volume, uint32_t cells[ENF_DBV_LINKS]) {
-    const EnfMap *map = index->map;
     const EnfDbvPlaces *places = &index->places;
     EnfBox3 box = enf_box3_from_f(volume);
     uint32_t found = 0;
-    uint32_t stack[ENF_KD_MAX_DEPTH + 1];
-    uint32_t depth = 0;
-    if (map->cell_nodes_count > 0) {
-        stack[depth++] = 0;
-    }
-    while (depth > 0) {
-        uint32_t at = stack[--depth];
-        const EnfKdNode *node = &map->cell_nodes[at];
-        if (!enf_dbv_box_touches(&places->boxes[at], &box)) {
+    EnfDbvWalk walk = enf_dbv_walk(places);
+    for (uint32_t place = enf_dbv_walk_next(&walk); place != ENF_NONE; place = enf_dbv_walk_next(&walk)) {
+        if (!enf_dbv_box_touches(&places->boxes[place], &box)) {
             continue;
         }
-        if (node->block_count == 0) {
-            stack[depth++] = node->link;
-            stack[depth++] = at + 1;
-            continue;
-        }
-        for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
-            uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
-            if (cell != ENF_NONE && enf_dbv_box_touches(&places->boxes[places->cells_first + cell], &box)) {
-                if (found == ENF_DBV_LINKS) {
-                    return ENF_NONE;
-                }
-                cells[found++] = cell;
+        if (place >= places->cells_first) {
+            if (found == ENF_DBV_LINKS) {
+                return ENF_NONE;
             }
+            cells[found++] = place - places->cells_first;
         }
+        enf_dbv_walk_enter(&walk, place);
     }
     return found;
 }
@@ -83,38 +69,22 @@ static double far_from(const EnfBox3 *place) {
 
 /* Only places that were seen are looked at: a handful of steps. */
 double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f volume) {
-    const EnfMap *map = index->map;
     const EnfDbvPlaces *places = &index->places;
     EnfBox3 box = enf_box3_from_f(volume);
     double nearest = HUGE_VAL;
-    uint32_t stack[ENF_KD_MAX_DEPTH + 1];
-    uint32_t depth = 0;
-    if (map->cell_nodes_count > 0 && is_seen(index, 0)) {
-        stack[depth++] = 0;
-    }
-    while (depth > 0 && nearest >= 0.0) {
-        uint32_t at = stack[--depth];
-        const EnfKdNode *node = &map->cell_nodes[at];
-        double here = gap(&places->boxes[at], &box);
+    EnfDbvWalk walk = enf_dbv_walk(places);
+    for (uint32_t place = enf_dbv_walk_next(&walk); place != ENF_NONE && nearest >= 0.0; place = enf_dbv_walk_next(&walk)) {
+        if (!is_seen(index, place)) {
+            continue;
+        }
+        double here = gap(&places->boxes[place], &box);
         if (here >= nearest) {
             continue;
         }
-        if (here > far_from(&places->boxes[at])) {
+        if (place >= places->cells_first || here > far_from(&places->boxes[place])) {
             nearest = here;
-            continue;
-        }
-        const uint32_t pair[2] = {at + 1, node->link};
-        for (uint32_t i = 0; i < 2 && node->block_count == 0; i++) {
-            if (is_seen(index, pair[i])) {
-                stack[depth++] = pair[i];
-            }
-        }
-        for (uint32_t i = 0; i < node->block_count * ENF_KD_BLOCK; i++) {
-            uint32_t cell = map->cell_blocks[node->link + i / ENF_KD_BLOCK].item[i % ENF_KD_BLOCK];
-            if (cell != ENF_NONE && is_seen(index, places->cells_first + cell)) {
-                double d = gap(&places->boxes[places->cells_first + cell], &box);
-                nearest = d < nearest ? d : nearest;
-            }
+        } else {
+            enf_dbv_walk_enter(&walk, place);
         }
     }
     return nearest > 0.0 ? sqrt(nearest) : nearest;

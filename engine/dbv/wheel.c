@@ -77,6 +77,13 @@ void enf_dbv_wheel_add(EnfDbvIndex *index, uint32_t object) {
     wheel->occupied[slot / 64] |= UINT64_C(1) << slot % 64;
 }
 
+void enf_dbv_wheel_prefetch(const EnfDbvIndex *index, uint32_t object) {
+    uint32_t at = index->volumes[object].wheel_at;
+    if (at != ENF_NONE) {
+        enf_dbv_prefetch(&index->wheel.chunks[at / ENF_DBV_QUEUED]);
+    }
+}
+
 void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object) {
     EnfDbvWheel *wheel = &index->wheel;
     uint32_t at = index->volumes[object].wheel_at;

@@ -362,17 +362,43 @@ bool enf_world_is_confined(const EnfWorld *world, uint32_t index) {
     return enf_world_is_free(world, index) && world->motions[index].as.free.confined;
 }
 
-void enf_world_prefetch(const EnfWorld *world, uint32_t index) {
 #if defined(__GNUC__)
-    const char *motion = (const char *)&world->motions[index];
-    __builtin_prefetch(&world->objects[index]);
-    __builtin_prefetch(motion);
-    __builtin_prefetch(motion + 64);
-    __builtin_prefetch(motion + 128);
+#define PREFETCH(address) __builtin_prefetch(address)
 #else
-    (void)world;
-    (void)index;
+#define PREFETCH(address) ((void)(address))
 #endif
+
+void enf_world_prefetch(const EnfWorld *world, uint32_t index) {
+    const char *object = (const char *)&world->objects[index];
+    const char *motion = (const char *)&world->motions[index];
+    PREFETCH(object);
+    PREFETCH(object + sizeof(Object) - 1);
+    for (size_t at = 0; at < sizeof(EnfMotion); at += 64) {
+        PREFETCH(motion + at);
+    }
+    PREFETCH(motion + sizeof(EnfMotion) - 1);
+}
+
+void enf_world_prefetch_named(const EnfWorld *world, uint32_t index) {
+    const EnfMotion *motion = &world->motions[index];
+    switch (motion->kind) {
+    case ENF_MOTION_PATH:
+        PREFETCH(motion->as.path.translation.times);
+        PREFETCH(motion->as.path.translation.values);
+        PREFETCH(motion->as.path.rotation.times);
+        PREFETCH(motion->as.path.rotation.values);
+        break;
+    case ENF_MOTION_FREE:
+        PREFETCH(motion->as.free.user);
+        break;
+    case ENF_MOTION_CALLBACK:
+        PREFETCH(motion->as.callback.user);
+        break;
+    case ENF_MOTION_HINGE:
+    case ENF_MOTION_SLIDE:
+    case ENF_MOTION_STILL:
+        break;
+    }
 }
 
 double enf_world_max_speed(const EnfWorld *world, uint32_t index) {

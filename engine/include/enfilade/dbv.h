@@ -41,7 +41,7 @@ typedef struct EnfDbvCounters {
     uint64_t drawn;      /**< of these, with the object itself in a window */
     uint64_t expired;    /**< volumes that ended unseen */
     uint64_t late;       /**< volumes exposed after their expiry tick: must stay 0 */
-    uint64_t reinserted; /**< volumes made and hung */
+    uint64_t reinserted; /**< volumes made and hung, or cut where they hang */
     uint64_t avoided;    /**< living objects that the frame did not touch */
     uint64_t nodes;      /**< tree nodes passed while hanging volumes */
     uint64_t tested;     /**< volumes tested against a window */

@@ -234,6 +234,8 @@ bool enf_world_is_free(const EnfWorld *world, uint32_t index);
 bool enf_world_is_confined(const EnfWorld *world, uint32_t index);
 /** Asks the processor for what the three above will read of an object: a hint for those who know what they will ask next. */
 void enf_world_prefetch(const EnfWorld *world, uint32_t index);
+/** The same, a little later, for what its motion names: the beginning of a path's keys, or of what a callback or `ask` is given. */
+void enf_world_prefetch_named(const EnfWorld *world, uint32_t index);
 /** Motions evaluated since the world was made. */
 uint64_t enf_world_evaluations(const EnfWorld *world);
 
