@@ -47,16 +47,30 @@ static double cluster_area(const EnfMap *map, const EnfCluster *cluster) {
     return area;
 }
 
-static Shell shell_of(const EnfMap *map, uint32_t cell) {
-    double single = 0.0, both = 0.0;
-    const EnfCell *c = &map->cells[cell];
+/* Which kinds the cell shows at all: bit 0 surfaces of one side, bit 1 of two. */
+static uint32_t sides_of(const EnfMap *map, const EnfCell *c) {
+    uint32_t kinds = 0;
     for (uint32_t i = c->cluster_first; i < c->cluster_first + c->cluster_count; i++) {
         const EnfMaterial *material = &map->materials[map->clusters[i].material];
         if (material->alpha_mode == ENF_ALPHA_OPAQUE) {
+            kinds |= material->flags & ENF_MATERIAL_DOUBLE_SIDED ? 2u : 1u;
+        }
+    }
+    return kinds;
+}
+
+static Shell shell_of(const EnfMap *map, uint32_t cell) {
+    double single = 0.0, both = 0.0;
+    const EnfCell *c = &map->cells[cell];
+    uint32_t kinds = sides_of(map, c);
+    for (uint32_t i = c->cluster_first; kinds == 3u && i < c->cluster_first + c->cluster_count; i++) {
+        const EnfMaterial *material = &map->materials[map->clusters[i].material];
+        if (material->alpha_mode ==
+            ENF_ALPHA_OPAQUE) { /* only where there are both does their area decide: it costs a millisecond */
             *(material->flags & ENF_MATERIAL_DOUBLE_SIDED ? &both : &single) += cluster_area(map, &map->clusters[i]);
         }
     }
-    return (Shell){cell, both > single, false, {0}, 0};
+    return (Shell){cell, kinds == 3u ? both > single : kinds == 2u, false, {0}, 0};
 }
 
 /* Is the node a thing in the cell, rather than what the cell is made of? Its box is less than half of the cell's. */

@@ -55,40 +55,13 @@ void bot_trip_start(GameBot *bot, EnfVec3 to, uint32_t cell, double near, bool e
 
 /* ---- doors on the way ------------------------------------------------------------------------------------------------------ */
 
-/* Does the segment meet the box? (Slabs.) */
-static bool crosses(EnfBox3f box, EnfVec3 from, EnfVec3 to, double margin) {
-    const double a[3] = {from.x, from.y, from.z}, b[3] = {to.x, to.y, to.z};
-    const double low[3] = {(double)box.min.x, (double)box.min.y, (double)box.min.z};
-    const double high[3] = {(double)box.max.x, (double)box.max.y, (double)box.max.z};
-    double t0 = 0.0, t1 = 1.0;
-    for (int i = 0; i < 3; i++) {
-        double d = b[i] - a[i], l = low[i] - margin - a[i], h = high[i] + margin - a[i];
-        if (fabs(d) < 1e-9) {
-            if (l > 0.0 || h < 0.0) {
-                return false;
-            }
-            continue;
-        }
-        t0 = fmax(t0, fmin(l / d, h / d));
-        t1 = fmin(t1, fmax(l / d, h / d));
-    }
-    return t0 <= t1;
-}
-
 /* The door that stands shut between the feet and a place, near the feet; or one that is on its way. */
 static uint32_t door_before(const GameBot *bot, EnfVec3 to) {
     Game *game = bot->game;
     EnfVec3 feet = game->player.body.position, way = enf_sub(to, feet);
     double away = enf_length(way);
-    EnfVec3 end = away > DOOR_AHEAD ? enf_add(feet, enf_scale(way, DOOR_AHEAD / away)) : to, up = enf_v3(0.0, 1.0, 0.0);
-    for (uint32_t i = 0; i < game->door_count; i++) {
-        const SimDoor *door = &game->doors[i];
-        if ((door->wanted == 0.0 || door->moving) &&
-            crosses(enf_world_box(game->world, door->object.index), enf_add(feet, up), enf_add(end, up), 0.2)) {
-            return i;
-        }
-    }
-    return ENF_NONE;
+    EnfVec3 end = away > DOOR_AHEAD ? enf_add(feet, enf_scale(way, DOOR_AHEAD / away)) : to;
+    return sim_door_between(game, feet, end);
 }
 
 static EnfVec3 middle_of(const Game *game, uint32_t door) {
@@ -120,13 +93,15 @@ static EnfVec3 next_stop(GameBot *bot, bool *last) {
     Game *game = bot->game;
     BotTrip *trip = &bot->trip;
     const EnfCharacter *body = &game->player.body;
-    EnfVec3 route[SIM_ROUTE_MAX];
-    uint32_t count = sim_route(game, body->position, sim_feet_cell(game, body), trip->to, trip->cell, route), i = 0;
-    while (i + 1 < count && flat(route[i], body->position) < GATE_NEAR) {
+    SimErrand errand = {body->position, trip->to, sim_feet_cell(game, body), trip->cell, ENF_NONE};
+    SimWay way;
+    uint32_t i = 0;
+    bool leads = sim_route(game, &errand, &way);
+    while (i + 1 < way.count && flat(way.at[i], body->position) < GATE_NEAR) {
         i++;
     }
-    *last = count == 0 || i + 1 == count;
-    return count == 0 ? trip->to : route[i];
+    *last = !leads || i + 1 == way.count;
+    return leads ? way.at[i] : trip->to;
 }
 
 static bool arrived(const GameBot *bot) {

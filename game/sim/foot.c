@@ -8,6 +8,10 @@
 #define PACE 0.25
 #define STEP_DOWN 0.5
 #define STOREY 1.2
+#define UPSTAIRS 1.3 /* a goal so much higher is searched from */
+#define BESIDE 0.6   /* near enough to the feet that walk there */
+/* More than 1, ways become up to so much longer than the shortest, and the search many times shorter (weighted A*, Pohl 1970). */
+#define EAGER 1.25
 
 static const int32_t WAYS[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
 
@@ -67,86 +71,149 @@ static uint32_t *slot_of(SimFoot *foot, int32_t x, int32_t z, double y) {
     }
 }
 
+typedef struct Stand {
+    EnfVec3 at;
+    double ground; /* see foot.h */
+} Stand;
+
 /* Where a body comes to stand that goes `way` from `from`; false if it does not get there. */
-static bool walk(EnfCollider *collider, const EnfCharacterDef *def, EnfVec3 from, EnfVec3 way, EnfVec3 *to) {
+static bool walk(EnfCollider *collider, const EnfCharacterDef *def, const Stand *from, EnfVec3 way, Stand *to) {
     EnfCapsule capsule = {def->radius, def->height};
     EnfSweepHit hit;
-    EnfVec3 up = from;
-    if (enf_collide_sweep(collider, &capsule, from, way,
-                          &hit)) { /* level first: under a low arch there is no room for a step */
-        enf_collide_sweep(collider, &capsule, from, enf_v3(0.0, def->step, 0.0), &hit);
-        up = enf_add(from, enf_v3(0.0, def->step * hit.t, 0.0));
+    EnfVec3 up = from->at;
+    if (enf_collide_sweep(collider, &capsule, up, way, &hit)) { /* level first: under a low arch there is no room for a step */
+        enf_collide_sweep(collider, &capsule, up, enf_v3(0.0, def->step, 0.0), &hit);
+        up.y += def->step * hit.t;
         if (enf_collide_sweep(collider, &capsule, up, way, &hit)) {
             return false;
         }
     }
-    EnfVec3 over = enf_add(up, way), down = enf_v3(0.0, from.y - up.y - STEP_DOWN, 0.0);
+    EnfVec3 over = enf_add(up, way), down = enf_v3(0.0, from->at.y - up.y - STEP_DOWN, 0.0);
     if (!enf_collide_sweep(collider, &capsule, over, down, &hit) || hit.face.y < def->slope_cos) {
         return false;
     }
-    *to = enf_add(over, enf_scale(down, hit.t));
-    return true;
+    to->at = enf_add(over, enf_scale(down, hit.t));
+    to->ground = hit.normal.y >= def->slope_cos ? to->at.y : fmin(from->ground, to->at.y);
+    return to->at.y - from->ground <= def->step + 0.01;
 }
 
-static void reach(SimFoot *foot, int32_t x, int32_t z, EnfVec3 at, uint32_t parent, EnfVec3 goal) {
+static void reach(SimFoot *foot, int32_t x, int32_t z, const Stand *stand, uint32_t parent) {
+    EnfVec3 at = stand->at;
     uint32_t *slot = slot_of(foot, x, z, at.y);
     double cost = parent == ENF_NONE ? 0.0 : foot->nodes[parent].cost + enf_length(enf_sub(at, foot->nodes[parent].at));
+    double total = cost + EAGER * flat(at, foot->to);
     if (*slot) {
         SimFootNode *node = &foot->nodes[*slot - 1];
         if (node->place && cost < node->cost) {
-            *node = (SimFootNode){at, cost, cost + flat(at, goal), x, z, parent, node->place};
+            *node = (SimFootNode){at, stand->ground, cost, total, x, z, parent, node->place};
             rise(foot, node->place - 1);
         }
-    } else if (foot->node_count < SIM_FOOT_NODES) {
+    } else if (foot->node_count < foot->place_max && cost + flat(at, foot->to) <= foot->farthest) {
         uint32_t number = foot->node_count++;
         *slot = number + 1;
-        foot->nodes[number] = (SimFootNode){at, cost, cost + flat(at, goal), x, z, parent, 0};
+        foot->nodes[number] = (SimFootNode){at, stand->ground, cost, total, x, z, parent, 0};
         put(foot, foot->heap_count, number);
         rise(foot, foot->heap_count++);
     }
 }
 
+/* Too long, it is its first part. */
 static void lay_path(SimFoot *foot, uint32_t last) {
     uint32_t count = 0, over = 0;
     for (uint32_t n = last; n != ENF_NONE; n = foot->nodes[n].parent) {
         count++;
     }
-    over = count > SIM_FOOT_PATH ? count - SIM_FOOT_PATH : 0; /* too long: its first part */
-    foot->path_count = count - over;
-    for (uint32_t n = last; count-- > 0; n = foot->nodes[n].parent) {
-        if (count < foot->path_count) {
-            foot->path[count] = foot->nodes[n].at;
+    foot->path_count = count < SIM_FOOT_PATH ? count : SIM_FOOT_PATH;
+    over = count - foot->path_count;
+    for (uint32_t n = last, i = 0; n != ENF_NONE; n = foot->nodes[n].parent, i++) {
+        if (foot->up && i < foot->path_count) {
+            foot->path[i] = foot->nodes[n].at;
+        } else if (!foot->up && i >= over) {
+            foot->path[count - 1 - i] = foot->nodes[n].at;
         }
     }
 }
 
-bool sim_foot_find(SimFoot *foot, EnfCollider *collider, const EnfCharacter *body, EnfVec3 to, double near) {
+void sim_foot_begin(SimFoot *foot, EnfCollider *collider, const EnfCharacterDef *def, const SimFootAsk *ask) {
+    EnfVec3 from = ask->from;
     memset(foot->table, 0, sizeof foot->table);
     foot->node_count = foot->heap_count = foot->path_count = 0;
-    reach(foot, 0, 0, body->position, ENF_NONE, to);
-    uint32_t best = 0;
-    double nearest = HUGE_VAL;
-    while (foot->heap_count > 0) {
-        uint32_t number = pop(foot);
-        SimFootNode node = foot->nodes[number];
-        double away = flat(node.at, to), above = fabs(node.at.y - to.y);
-        double miss = away + (above < STOREY ? 0.0 : above);
-        if (miss < nearest) {
-            nearest = miss;
-            best = number;
-        }
-        if (away <= near && above < STOREY) {
-            break;
-        }
-        for (int i = 0; i < 8; i++) {
-            EnfVec3 at, way = enf_v3(PACE * WAYS[i][0], 0.0, PACE * WAYS[i][1]);
-            const uint32_t *slot = slot_of(foot, node.x + WAYS[i][0], node.z + WAYS[i][1], node.at.y);
-            bool done = *slot && foot->nodes[*slot - 1].place == 0;
-            if (!done && walk(collider, &body->def, node.at, way, &at)) {
-                reach(foot, node.x + WAYS[i][0], node.z + WAYS[i][1], at, number, to);
-            }
+    foot->def = *def;
+    foot->to = ask->to;
+    foot->near = ask->near;
+    foot->up = ask->to.y > ask->from.y + UPSTAIRS;
+    if (foot->up) {
+        EnfCapsule capsule = {def->radius, def->height};
+        enf_collide_way_out(collider, &capsule, enf_add(ask->to, enf_v3(0.0, 0.02, 0.0)), 0.5, &from);
+        foot->to = ask->from;
+        foot->near = fmax(ask->near, BESIDE);
+    }
+    foot->farthest = ask->farthest;
+    foot->nearest = HUGE_VAL;
+    foot->best = 0;
+    foot->place_max = ask->places < SIM_FOOT_NODES ? ask->places : SIM_FOOT_NODES;
+    reach(foot, 0, 0, &(Stand){from, from.y}, ENF_NONE);
+}
+
+/* A foothold becomes one that is done with; true if it is where the search was to lead. */
+static bool settle(SimFoot *foot, EnfCollider *collider) {
+    uint32_t number = pop(foot);
+    SimFootNode node = foot->nodes[number];
+    double away = flat(node.at, foot->to), above = fabs(node.at.y - foot->to.y);
+    double miss = away + (above < STOREY ? 0.0 : above);
+    if (miss < foot->nearest) {
+        foot->nearest = miss;
+        foot->best = number;
+    }
+    if (away <= foot->near && above < STOREY) {
+        return true;
+    }
+    for (int i = 0; i < 8; i++) {
+        EnfVec3 way = enf_v3(PACE * WAYS[i][0], 0.0, PACE * WAYS[i][1]);
+        Stand stand;
+        const uint32_t *slot = slot_of(foot, node.x + WAYS[i][0], node.z + WAYS[i][1], node.at.y);
+        const SimFootNode *known = *slot ? &foot->nodes[*slot - 1] : NULL;
+        bool done = known && (known->place == 0 || known->cost <= node.cost + PACE * (i < 4 ? 1.0 : 1.41421));
+        if (!done && walk(collider, &foot->def, &(Stand){node.at, node.ground}, way, &stand)) {
+            reach(foot, node.x + WAYS[i][0], node.z + WAYS[i][1], &stand, number);
         }
     }
-    lay_path(foot, best);
-    return nearest <= near;
+    return false;
+}
+
+SimFootNews sim_foot_more(SimFoot *foot, EnfCollider *collider, uint32_t places) {
+    for (; foot->heap_count > 0; places--) {
+        if (places == 0) {
+            return SIM_FOOT_GOES_ON;
+        }
+        if (settle(foot, collider)) {
+            break;
+        }
+    }
+    bool leads = foot->nearest <= foot->near;
+    if (leads || !foot->up) {
+        lay_path(foot, foot->best);
+    }
+    return leads ? SIM_FOOT_LEADS : SIM_FOOT_NEARS;
+}
+
+bool sim_foot_find(SimFoot *foot, EnfCollider *collider, const EnfCharacter *body, EnfVec3 to, double near) {
+    sim_foot_begin(foot, collider, &body->def, &(SimFootAsk){body->position, to, near, HUGE_VAL, SIM_FOOT_NODES});
+    return sim_foot_more(foot, collider, UINT32_MAX) == SIM_FOOT_LEADS;
+}
+
+bool sim_foot_straight(EnfCollider *collider, const EnfCharacter *body, EnfVec3 to, double most) {
+    Stand stand = {body->position, body->position.y}, next;
+    for (double gone = 0.0; gone < most; gone += PACE) {
+        double away = flat(stand.at, to);
+        if (away < PACE) {
+            return fabs(stand.at.y - to.y) < STOREY;
+        }
+        EnfVec3 way = enf_scale(enf_v3(to.x - stand.at.x, 0.0, to.z - stand.at.z), PACE / away);
+        if (!walk(collider, &body->def, &stand, way, &next)) {
+            return false;
+        }
+        stand = next;
+    }
+    return true;
 }

@@ -54,8 +54,9 @@ void sim_say(Game *game, const char *text) {
     game->message_until = sim_tick(game) + MESSAGE_TICKS;
 }
 
-void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, double loudness) {
+void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, uint32_t cell, double loudness) {
     if (game->sound_count < SIM_SOUNDS_MAX) {
+        game->sound_cells[game->sound_count] = cell;
         game->sounds[game->sound_count++] = (GameSound){kind, at_ws, loudness, 0.0, at_ws, 0.0};
     }
 }
@@ -285,7 +286,7 @@ void game_step(Game *game, const EnfInput *input) {
         sim_guards_step(game);
     }
     for (uint32_t i = 0; i < game->sound_count; i++) {
-        sim_hear(game, &game->sounds[i]);
+        sim_hear(game, &game->sounds[i], game->sound_cells[i]);
     }
     sim_show(game);
 }
@@ -321,11 +322,17 @@ static uint64_t objects_hash(const Game *game) {
 
 #define HASH_OF(array, count) enf_hash64(ENF_HASH_START, (array), (count) * sizeof *(array))
 
+/* The guards, and how far their search for footholds is. */
+static uint64_t guards_hash(const Game *game) {
+    const uint32_t search[] = {game->foot_guard, game->foot_guard == ENF_NONE ? 0 : game->foot.node_count};
+    return enf_hash64(HASH_OF(game->guards, game->guard_count), search, sizeof search);
+}
+
 uint32_t game_fields(const Game *game, GameField out[GAME_FIELDS_MAX]) {
     const GameField fields[] = {
         {"tick", HASH_OF(&game->score.tick, 1)},
         {"player", HASH_OF(&game->player, 1)},
-        {"guards", HASH_OF(game->guards, game->guard_count)},
+        {"guards", guards_hash(game)},
         {"doors", HASH_OF(game->doors, game->door_count)},
         {"portals", portals_hash(game)},
         {"lifts", HASH_OF(game->lifts, game->lift_count)},

@@ -1,37 +1,31 @@
 /* Guards. On its round a guard is a path and costs nothing that nobody looks at; what it notices makes it stop, go and look, chase,
- * search, and come back to where its round is at that moment nearest. */
+ * search, and come back to where its round is nearest. */
 #include "sim/sim.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { LOOK_EVERY = 4, ROUTE_EVERY = 20, WONDER_TICKS = 150, SEARCH_TICKS = 480, WHISTLE_EVERY = 200 };
+enum { LOOK_EVERY = 4, WONDER_TICKS = 150, SEARCH_TICKS = 480, RETURN_TICKS = 1800, WHISTLE_EVERY = 200 };
+/* Ticks in which it still knows where somebody went who is out of its sight: round the corner, through the door. */
+enum { MEMORY_TICKS = 45 };
+/* Ticks of looking round at a place. */
+enum { ROUND_LOOK_TICKS = 150 };
 /* Ticks from the start in which nobody is seen: one comes in by the door and looks about. */
 enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
-#define EYE_HEIGHT 1.65
 #define CHASE_SPEED 3.6
+#define SEARCH_SPEED 2.5
 #define RETURN_SPEED 1.4
 #define CATCH_DISTANCE 0.95
-#define TURN_RATE 200.0 /* degrees a second */
-#define NOTICE_RATE 1.0 /* a second, of somebody fully seen nearby */
+#define LOOK_ROUND_RATE 65.0 /* degrees a second */
+#define NOTICE_RATE 1.0      /* a second, of somebody fully seen nearby */
 #define NOTICE_FADES 0.12
 #define HEARD_MOST 0.6 /* what is only heard is looked for, not chased */
-/* A step up is a leap of 0.4 m in one tick: no point of a guard is faster than that and its way. */
-#define GUARD_SPEED_MAX 45.0
 
 /* ---- start ------------------------------------------------------------------------------------------------------------ */
 
-static void follow_pose(Game *game, SimGuard *guard) {
-    EnfPose pose = enf_world_pose(game->world, guard->object.index);
-    EnfVec3 eye = enf_v3(0.0, EYE_HEIGHT, 0.0), from = enf_add(guard->body.position, eye), to = enf_add(pose.position, eye);
-    bool known = guard->body.cell != ENF_NONE && enf_length(enf_sub(to, from)) < 3.0;
-    guard->body.cell = known ? enf_map_track(game->map, guard->body.cell, from, to) : enf_map_locate(game->map, to);
-    guard->body.position = pose.position;
-    guard->yaw_deg = sim_yaw(pose.rotation);
-}
-
 void sim_guards_start(Game *game) {
     game->guard_count = 0;
+    game->foot_guard = ENF_NONE;
     for (uint32_t i = 0; i < game->map->movers_count; i++) {
         const EnfMover *mover = &game->map->movers[i];
         if (strcmp(enf_map_string(game->map, game->map->entities[mover->entity].classname), "npc_guard") != 0) {
@@ -42,28 +36,18 @@ void sim_guards_start(Game *game) {
         guard->object = enf_world_object(game->world, i);
         guard->mover = i;
         guard->start = sim_tick(game);
+        guard->seen_at = INT64_MIN / 2;
+        guard->last_cell = guard->home_cell = ENF_NONE;
         guard->body.def = enf_character_def_default();
         guard->body.def.walk_speed = CHASE_SPEED;
         guard->body.height = guard->body.def.height;
         guard->body.object = guard->object.index;
         guard->body.cell = ENF_NONE;
         guard->body.position = enf_v3(0.0, -1e6, 0.0);
+        sim_walk_start(guard);
         enf_collider_set_solid(game->collider, guard->object.index, false);
-        follow_pose(game, guard);
+        sim_guard_follow(game, guard);
     }
-}
-
-/* ---- places -------------------------------------------------------------------------------------------------------------- */
-
-static EnfVec3 eye_of(const SimGuard *guard) {
-    return enf_add(guard->body.position, enf_v3(0.0, EYE_HEIGHT, 0.0));
-}
-
-static EnfPose pose_of(const SimGuard *guard) {
-    EnfPose pose = enf_pose_identity();
-    pose.position = guard->body.position;
-    pose.rotation = enf_quat_axis_angle(enf_v3(0.0, 1.0, 0.0), guard->yaw_deg * (ENF_PI / 180.0));
-    return pose;
 }
 
 /* From its round into its own hands: a body where the path has it. */
@@ -78,149 +62,52 @@ static void step_off(Game *game, SimGuard *guard) {
     guard->yaw_deg = yaw;
 }
 
-/* The object is where the body is, from this tick on. Off its path, it walks from where it was. */
-static void push_pose(Game *game, SimGuard *guard) {
-    EnfPose pose = pose_of(guard);
-    if (enf_world_push(game->world, guard->object, &pose)) {
-        return;
-    }
-    EnfMotion motion;
-    memset(&motion, 0, sizeof motion);
-    motion.kind = ENF_MOTION_FREE;
-    motion.as.free.max_speed = GUARD_SPEED_MAX;
-    enf_free_push(&motion, sim_world_tick(game), pose);
-    enf_world_set_motion(game->world, guard->object, &motion);
-}
-
-/* ---- the round ------------------------------------------------------------------------------------------------------------ */
-
-/* The tick of the round at which it comes nearest to a place, of one a third of a second. */
-static int64_t nearest_of_round(const Game *game, const EnfMotion *motion, EnfVec3 at, EnfVec3 *place) {
-    int64_t best = 0, period = (int64_t)motion->as.path.period_ticks;
-    double nearest = HUGE_VAL;
-    (void)game;
-    for (int64_t tick = 0; tick < period; tick += ENF_TICK_RATE / 3) {
-        EnfPose pose = enf_motion_state(motion, motion->as.path.start_tick + tick);
-        double away = enf_length(enf_sub(pose.position, at));
-        if (away < nearest) {
-            nearest = away;
-            best = tick;
-            *place = pose.position;
-        }
-    }
-    return best;
-}
-
-static EnfMotion round_motion(const Game *game, const SimGuard *guard) {
-    EnfMotion motion = enf_mover_def(game->map, guard->mover).motion;
-    if (motion.kind == ENF_MOTION_PATH) {
-        motion.as.path.start_tick += game->begin + guard->start;
-    }
-    return motion;
-}
-
-/* Back on its path, which goes on from the place that it has come to. */
-static void resume(Game *game, SimGuard *guard) {
-    EnfMotion motion = round_motion(game, guard);
-    if (motion.kind == ENF_MOTION_PATH) {
-        EnfVec3 place;
-        int64_t at = nearest_of_round(game, &motion, guard->body.position, &place);
-        int64_t begin = motion.as.path.start_tick - guard->start;
-        motion.as.path.start_tick = sim_world_tick(game) - at;
-        guard->start = motion.as.path.start_tick - begin;
-    }
-    enf_world_set_motion(game->world, guard->object, &motion);
-    guard->mood = GAME_GUARD_ROUND;
-    guard->notice = 0.0;
-}
-
-/* ---- going ------------------------------------------------------------------------------------------------------------------ */
-
-static void turn_to(SimGuard *guard, EnfVec3 to) {
-    EnfVec3 way = enf_sub(to, guard->body.position);
-    if (way.x * way.x + way.z * way.z < 1e-4) {
-        return;
-    }
-    double wanted = enf_atan2(-way.x, -way.z) * (180.0 / ENF_PI), turn = wanted - guard->yaw_deg;
-    turn -= 360.0 * floor((turn + 180.0) / 360.0);
-    double most = TURN_RATE / ENF_TICK_RATE;
-    guard->yaw_deg += turn > most ? most : turn < -most ? -most : turn;
-    guard->yaw_deg -= 360.0 * floor((guard->yaw_deg + 180.0) / 360.0);
-}
-
-/* One tick on foot towards the next point of the route (or straight, without one). True when the end is reached. */
-static bool go(Game *game, SimGuard *guard, EnfVec3 to, uint32_t to_cell, double speed) {
-    int64_t tick = sim_tick(game);
-    if (guard->route_count == 0 || tick - guard->route_at >= ROUTE_EVERY) {
-        guard->route_count = sim_route(game, guard->body.position, sim_feet_cell(game, &guard->body), to, to_cell,
-                                       guard->route);
-        guard->route_at = tick;
-        if (guard->route_count == 0) {
-            guard->route[0] = to;
-            guard->route_count = 1;
-        }
-    }
-    EnfVec3 way = enf_sub(guard->route[0], guard->body.position);
-    double flat = sqrt(way.x * way.x + way.z * way.z);
-    if (flat < 0.35) {
-        if (guard->route_count == 1) {
-            return true;
-        }
-        guard->route_count--;
-        memmove(guard->route, guard->route + 1, guard->route_count * sizeof *guard->route);
-        way = enf_sub(guard->route[0], guard->body.position);
-        flat = sqrt(way.x * way.x + way.z * way.z);
-    }
-    turn_to(guard, guard->route[0]);
-    EnfCharacterInput input = {enf_v3(0.0, 0.0, 0.0), false, false, false, ENF_CHARACTER_WALK};
-    if (flat > 0.0) {
-        input.wish = enf_scale(enf_v3(way.x, 0.0, way.z), speed / CHASE_SPEED / flat);
-    }
-    EnfCharacterReport report;
-    EnfVec3 before = guard->body.position;
-    enf_character_move(&guard->body, game->collider, &input, &report);
-    if (report.moved & ENF_MOVED_BLOCKED) {
-        uint32_t door = sim_door_near(game, eye_of(guard), enf_v3(0.0, 0.0, 0.0), 1.6);
-        if (door != ENF_NONE) {
-            sim_door_open(game, door, true);
-        }
-    }
-    EnfVec3 moved = enf_sub(guard->body.position, before);
-    guard->stride += sqrt(moved.x * moved.x + moved.z * moved.z);
-    if (guard->stride > 0.9) {
-        guard->stride = 0.0;
-        sim_sound(game, GAME_SOUND_GUARD_STEP, guard->body.position, 0.5);
-    }
-    return false;
-}
-
 /* ---- minds -------------------------------------------------------------------------------------------------------------------- */
 
 static void wonder(Game *game, SimGuard *guard) {
     step_off(game, guard);
     guard->mood = GAME_GUARD_WONDERS;
     guard->until = sim_tick(game) + WONDER_TICKS;
-    guard->route_count = 0;
-    sim_sound(game, GAME_SOUND_GUARD_WONDERS, eye_of(guard), 0.7);
+    sim_sound(game, GAME_SOUND_GUARD_WONDERS, sim_guard_eye(guard), guard->body.cell, 0.7);
 }
 
 static void chase(Game *game, SimGuard *guard) {
     if (guard->mood != GAME_GUARD_CHASES) {
         step_off(game, guard);
         guard->mood = GAME_GUARD_CHASES;
-        guard->route_count = 0;
-        sim_sound(game, GAME_SOUND_GUARD_SEES, eye_of(guard), 1.0);
+        sim_walk_start(guard);
+        sim_sound(game, GAME_SOUND_GUARD_SEES, sim_guard_eye(guard), guard->body.cell, 1.0);
         sim_say(game, "A guard has seen you");
     }
     guard->until = sim_tick(game) + SEARCH_TICKS;
 }
 
-void sim_guards_hear(Game *game, EnfVec3 at, double metres) {
-    if (game->def.peaceful) {
+/* It knows, or thinks, that he is there. */
+static void think_of(SimGuard *guard, EnfVec3 at, uint32_t cell) {
+    guard->last_seen = at;
+    guard->last_cell = cell;
+}
+
+/* What it hears it goes to see; who runs from it is followed by ear. */
+static void hear(Game *game, SimGuard *guard, EnfVec3 at, double loud) {
+    if (guard->sees) {
         return;
     }
+    think_of(guard, at, sim_feet_cell(game, &game->player.body));
+    if (guard->mood == GAME_GUARD_CHASES || guard->mood == GAME_GUARD_SEARCHES) {
+        guard->until = sim_tick(game) + SEARCH_TICKS;
+        guard->turned = 0;
+        return;
+    }
+    guard->notice = fmax(guard->notice, fmin(HEARD_MOST, guard->notice + 0.25 * loud));
+    if (guard->notice > 0.35 && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
+        wonder(game, guard);
+    }
+}
+
+void sim_guards_hear(Game *game, EnfVec3 at, double metres) {
     bool found = false;
-    for (uint32_t i = 0; i < game->guard_count; i++) {
+    for (uint32_t i = 0; i < game->guard_count && !game->def.peaceful; i++) {
         SimGuard *guard = &game->guards[i];
         uint32_t last;
         if (enf_length(enf_sub(guard->body.position, at)) > metres) {
@@ -232,12 +119,8 @@ void sim_guards_hear(Game *game, EnfVec3 at, double metres) {
             found = true;
         }
         double way = sim_ways_to(game, &game->ears, guard->body.position, guard->body.cell, &last);
-        if (way < metres && guard->mood != GAME_GUARD_CHASES) {
-            guard->last_seen = at;
-            guard->notice = fmax(guard->notice, fmin(HEARD_MOST, guard->notice + 0.25 * (1.0 - way / metres)));
-            if (guard->notice > 0.35 && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
-                wonder(game, guard);
-            }
+        if (way < metres) {
+            hear(game, guard, at, 1.0 - way / metres);
         }
     }
 }
@@ -248,14 +131,15 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
     if ((sim_tick(game) + number) % LOOK_EVERY != 0 || game->def.peaceful) {
         return;
     }
-    double sight = sim_tick(game) < GRACE_TICKS ? 0.0 : sim_sight(game, guard, eye_of(guard), sim_look(guard->yaw_deg, 0.0));
+    double sight = sim_tick(game) < GRACE_TICKS ? 0.0
+                                                : sim_sight(game, guard, sim_guard_eye(guard), sim_look(guard->yaw_deg, 0.0));
     bool crouched = (game->player.body.flags & ENF_CHARACTER_CROUCHED) != 0;
     sight *= crouched ? 0.6 : 1.0;
     guard->sees = sight > 0.01;
     guard->notice += guard->sees ? NOTICE_RATE * sight * step : -NOTICE_FADES * step;
     guard->notice = fmin(1.0, fmax(0.0, guard->notice));
     if (guard->sees) {
-        guard->last_seen = game->player.body.position;
+        guard->seen_at = sim_tick(game);
     }
     if (guard->notice >= 1.0 || (guard->sees && guard->mood == GAME_GUARD_CHASES)) {
         chase(game, guard);
@@ -265,20 +149,82 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
 }
 
 static void go_back(Game *game, SimGuard *guard) {
-    sim_sound(game, GAME_SOUND_GUARD_GIVES_UP, eye_of(guard), 0.7);
+    sim_sound(game, GAME_SOUND_GUARD_GIVES_UP, sim_guard_eye(guard), guard->body.cell, 0.7);
     guard->mood = GAME_GUARD_RETURNS;
-    guard->route_count = 0;
+    guard->until = sim_tick(game) + RETURN_TICKS;
+    sim_walk_start(guard);
+    sim_round_find(game, guard);
 }
 
+static SimGoNews go(Game *game, SimGuard *guard, EnfVec3 to, uint32_t cell, double speed) {
+    SimErrand errand = {guard->body.position, to, sim_feet_cell(game, &guard->body), cell, ENF_NONE};
+    return sim_walk(game, guard, &errand, speed, guard->mood == GAME_GUARD_RETURNS ? 0.1 : 0.5);
+}
+
+/* Who finds no way home in half a minute is home all the same. */
 static void return_home(Game *game, SimGuard *guard) {
-    EnfMotion motion = round_motion(game, guard);
-    EnfVec3 place = guard->body.position;
-    if (motion.kind == ENF_MOTION_PATH) {
-        nearest_of_round(game, &motion, guard->body.position, &place);
+    bool late = sim_tick(game) > guard->until;
+    if (go(game, guard, guard->home, guard->home_cell, RETURN_SPEED) == SIM_GO_THERE || late) {
+        sim_round_resume(game, guard);
     }
-    uint32_t cell = enf_map_locate(game->map, enf_add(place, enf_v3(0.0, 1.0, 0.0)));
-    if (go(game, guard, place, cell, RETURN_SPEED) || sim_tick(game) > guard->until + 4 * SEARCH_TICKS) {
-        resume(game, guard);
+}
+
+static void search(Game *game, SimGuard *guard) {
+    guard->mood = GAME_GUARD_SEARCHES;
+    guard->until = sim_tick(game) + SEARCH_TICKS;
+    guard->turned = 0;
+    sim_walk_start(guard);
+}
+
+/* Having looked round in vain, it looks through one of the doorways of where it is. */
+static void look_elsewhere(Game *game, SimGuard *guard) {
+    uint32_t cell = sim_feet_cell(game, &guard->body);
+    if (cell >= game->map->cells_count || game->map->cells[cell].portal_count == 0) {
+        return;
+    }
+    const EnfCell *c = &game->map->cells[cell];
+    uint32_t portal = c->portal_first + (uint32_t)(sim_random(game) % c->portal_count);
+    if (game->gates[portal].walkable) {
+        think_of(guard, game->gates[portal].foot, cell);
+        sim_walk_start(guard);
+    }
+    guard->turned = 0;
+}
+
+static void act_wonders(Game *game, SimGuard *guard) {
+    sim_turn_to(guard, guard->last_seen);
+    if (sim_tick(game) < guard->until) {
+        return;
+    }
+    if (guard->notice > 0.3) {
+        search(game, guard);
+    } else {
+        go_back(game, guard);
+    }
+}
+
+static void act_chases(Game *game, SimGuard *guard) {
+    int64_t tick = sim_tick(game);
+    if (tick - guard->seen_at < MEMORY_TICKS) {
+        think_of(guard, game->player.body.position, sim_feet_cell(game, &game->player.body));
+    }
+    SimGoNews news = go(game, guard, guard->last_seen, guard->last_cell, CHASE_SPEED);
+    if (guard->sees && news != SIM_GO_ON) {
+        sim_turn_to(guard, guard->last_seen);
+    } else if (news != SIM_GO_ON || tick >= guard->until) {
+        search(game, guard);
+    }
+}
+
+static void act_searches(Game *game, SimGuard *guard) {
+    if (guard->turned > 0 || go(game, guard, guard->last_seen, guard->last_cell, SEARCH_SPEED) != SIM_GO_ON) {
+        guard->yaw_deg += LOOK_ROUND_RATE / ENF_TICK_RATE;
+        guard->turned++;
+    }
+    if (sim_tick(game) >= guard->until) {
+        go_back(game, guard);
+    } else if (guard->turned >= ROUND_LOOK_TICKS) {
+        look_elsewhere(game, guard);
     }
 }
 
@@ -286,51 +232,30 @@ static void return_home(Game *game, SimGuard *guard) {
 static void whistle(Game *game, const SimGuard *guard, uint32_t number) {
     bool calls = guard->mood == GAME_GUARD_CHASES && guard->sees;
     if (calls && (sim_tick(game) + 50 * (int64_t)number) % WHISTLE_EVERY == 0) {
-        sim_sound(game, GAME_SOUND_GUARD_WHISTLES, eye_of(guard), 0.9);
+        sim_sound(game, GAME_SOUND_GUARD_WHISTLES, sim_guard_eye(guard), guard->body.cell, 0.9);
     }
 }
 
 static void act(Game *game, SimGuard *guard) {
-    int64_t tick = sim_tick(game);
-    uint32_t cell = sim_feet_cell(game, &game->player.body);
     switch ((GameGuardMood)guard->mood) {
     case GAME_GUARD_ROUND:
-        follow_pose(game, guard);
+        sim_guard_follow(game, guard);
         return;
     case GAME_GUARD_WONDERS:
-        turn_to(guard, guard->last_seen);
-        if (tick >= guard->until) {
-            guard->mood = guard->notice > 0.3 ? GAME_GUARD_SEARCHES : GAME_GUARD_RETURNS;
-            guard->until = tick + SEARCH_TICKS;
-            guard->route_count = 0;
-        }
+        act_wonders(game, guard);
         break;
     case GAME_GUARD_CHASES:
-        if (go(game, guard, guard->last_seen,
-               guard->sees ? cell : enf_map_locate(game->map, enf_add(guard->last_seen, enf_v3(0.0, 1.0, 0.0))), CHASE_SPEED) &&
-            !guard->sees) {
-            guard->mood = GAME_GUARD_SEARCHES;
-            guard->route_count = 0;
-        }
-        if (tick >= guard->until) {
-            go_back(game, guard);
-        }
+        act_chases(game, guard);
         break;
     case GAME_GUARD_SEARCHES:
-        if (go(game, guard, guard->last_seen, enf_map_locate(game->map, enf_add(guard->last_seen, enf_v3(0.0, 1.0, 0.0))),
-               0.7 * CHASE_SPEED)) {
-            guard->yaw_deg += TURN_RATE / 3.0 / ENF_TICK_RATE;
-        }
-        if (tick >= guard->until) {
-            go_back(game, guard);
-        }
+        act_searches(game, guard);
         break;
     default:
         return_home(game, guard);
         break;
     }
     if (guard->mood != GAME_GUARD_ROUND) {
-        push_pose(game, guard);
+        sim_guard_push(game, guard);
     }
 }
 
@@ -340,13 +265,14 @@ static void catch_player(Game *game, const SimGuard *guard) {
     bool near = sqrt(way.x * way.x + way.z * way.z) < CATCH_DISTANCE && fabs(way.y) < 1.2;
     if (near && guard->sees && guard->mood == GAME_GUARD_CHASES && game->score.phase == GAME_PLAYING) {
         game->score.phase = GAME_LOST;
-        sim_sound(game, GAME_SOUND_CAUGHT, eye_of(guard), 1.0);
-        sim_sound(game, GAME_SOUND_LOST, game->player.body.position, 1.0);
+        sim_sound(game, GAME_SOUND_CAUGHT, sim_guard_eye(guard), guard->body.cell, 1.0);
+        sim_sound(game, GAME_SOUND_LOST, game->player.body.position, game->player.body.cell, 1.0);
         sim_say(game, "Caught");
     }
 }
 
 void sim_guards_step(Game *game) {
+    sim_walk_search(game);
     for (uint32_t i = 0; i < game->guard_count; i++) {
         SimGuard *guard = &game->guards[i];
         act(game, guard);

@@ -9,11 +9,7 @@
 /* Metres of detour (way less straight line) that muffle a sound by half. */
 #define MUFFLE 10.0
 
-void sim_hear(Game *game, GameSound *sound) {
-    sim_hear_in(game, sound, enf_map_locate(game->map, enf_add(sound->at_ws, enf_v3(0.0, 0.3, 0.0))));
-}
-
-void sim_hear_in(Game *game, GameSound *sound, uint32_t cell) {
+void sim_hear(Game *game, GameSound *sound, uint32_t cell) {
     const EnfCharacter *body = &game->player.body;
     EnfVec3 ears = enf_character_eye(body);
     if (!game->ears_ready) { /* once a tick, and only if something sounds */

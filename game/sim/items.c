@@ -74,7 +74,7 @@ static void take(Game *game, uint32_t index) {
     title_of(game, item, title);
     snprintf(text, sizeof text, "You took %s", title);
     sim_say(game, text);
-    sim_sound(game, item->is_key ? GAME_SOUND_TAKE_KEY : GAME_SOUND_TAKE, item->at, 0.5);
+    sim_sound(game, item->is_key ? GAME_SOUND_TAKE_KEY : GAME_SOUND_TAKE, item->at, game->player.body.cell, 0.5);
 }
 
 static uint32_t button_ahead(const Game *game, EnfVec3 eye, EnfVec3 look) {
@@ -101,7 +101,7 @@ static uint32_t lift_below(const Game *game) {
 
 static void press(Game *game, uint32_t index) {
     const SimButton *button = &game->buttons[index];
-    sim_sound(game, GAME_SOUND_SWITCH, enf_world_pose(game->world, button->object).position, 0.5);
+    sim_sound(game, GAME_SOUND_SWITCH, enf_world_pose(game->world, button->object).position, game->player.body.cell, 0.5);
     sim_lift_call(game, button->target, button->stop);
     for (uint32_t i = 0; i < game->door_count; i++) {
         if (game->doors[i].name == button->target) {
@@ -162,7 +162,7 @@ void sim_drop(Game *game) {
         def.motion.as.still.position = item->at;
         game->item_objects[i] = enf_world_add(game->world, &def, NULL);
         item->state = SIM_ITEM_LIES;
-        sim_sound(game, GAME_SOUND_DROP, item->at, 0.5);
+        sim_sound(game, GAME_SOUND_DROP, item->at, game->player.body.cell, 0.5);
         sim_guards_hear(game, item->at, 8.0);
         return;
     }
@@ -189,11 +189,11 @@ void sim_items_step(Game *game) {
     }
     game->score.delivered += delivered;
     if (delivered > 0) {
-        sim_sound(game, GAME_SOUND_DELIVERED, game->player.body.position, 0.8);
+        sim_sound(game, GAME_SOUND_DELIVERED, game->player.body.position, game->player.body.cell, 0.8);
         sim_say(game, "Carried out");
     }
     if (game->score.wanted > 0 && game->score.delivered >= game->score.wanted) {
         game->score.phase = GAME_WON;
-        sim_sound(game, GAME_SOUND_WON, game->player.body.position, 1.0);
+        sim_sound(game, GAME_SOUND_WON, game->player.body.position, game->player.body.cell, 1.0);
     }
 }

@@ -66,12 +66,13 @@ static GameSoundKind step_kind(const Game *game) {
 static void footsteps(Game *game, const EnfInput *input, EnfVec3 before, const EnfCharacterReport *report) {
     SimPlayer *player = &game->player;
     EnfVec3 feet = player->body.position;
+    uint32_t cell = player->body.cell;
     bool crouched = (player->body.flags & ENF_CHARACTER_CROUCHED) != 0, runs = (input->buttons & ENF_BUTTON_RUN) != 0;
     if (report->moved & ENF_MOVED_JUMPED) {
-        sim_sound(game, GAME_SOUND_JUMP, feet, 0.4);
+        sim_sound(game, GAME_SOUND_JUMP, feet, cell, 0.4);
     }
     if ((report->moved & ENF_MOVED_LANDED) && report->fall_speed > 2.0) {
-        sim_sound(game, GAME_SOUND_LAND, feet, 0.7);
+        sim_sound(game, GAME_SOUND_LAND, feet, cell, 0.7);
         sim_guards_hear(game, feet, HEARD_WALK + report->fall_speed);
     }
     if (!(player->body.flags & ENF_CHARACTER_GROUNDED) || (report->moved & ENF_MOVED_RELOCATED)) {
@@ -82,7 +83,7 @@ static void footsteps(Game *game, const EnfInput *input, EnfVec3 before, const E
     if (player->stride >= (runs ? STRIDE_RUN : STRIDE_WALK)) {
         player->stride = 0.0;
         player->steps++;
-        sim_sound(game, step_kind(game), feet, crouched ? 0.08 : runs ? 0.7 : 0.35);
+        sim_sound(game, step_kind(game), feet, cell, crouched ? 0.08 : runs ? 0.7 : 0.35);
         sim_guards_hear(game, feet, crouched ? HEARD_CROUCH : runs ? HEARD_RUN : HEARD_WALK);
     }
 }
@@ -101,6 +102,9 @@ void sim_player_step(Game *game, const EnfInput *input) {
     EnfCharacterReport report;
     EnfVec3 before = player->body.position;
     enf_character_move(&player->body, game->collider, &told, &report);
+    if (report.moved & ENF_MOVED_SQUEEZED) {
+        sim_turn_back(game, report.squeezed_by);
+    }
     if (report.moved & ENF_MOVED_RELOCATED) {
         game->shown.eye_before_ws = enf_character_eye(&player->body);
     }

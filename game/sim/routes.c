@@ -252,35 +252,12 @@ double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t c
 
 /* ---- on foot ----------------------------------------------------------------------------------------------------------- */
 
-/* Shortest on foot: doorways that can be walked through alone, shut ones too (they can be opened). Points before and behind each, so
- * that nobody cuts its corners. */
-uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uint32_t to_cell, EnfVec3 out[SIM_ROUTE_MAX]) {
-    const EnfMap *map = game->map;
-    SimWays *ways = &game->ways;
-    if (from_cell >= map->cells_count || to_cell >= map->cells_count) {
-        return 0;
-    }
-    clear(game, ways);
-    uint32_t cell = from_cell, passed = ENF_NONE;
-    while (cell != to_cell) {
-        EnfVec3 at = passed == ENF_NONE ? from : game->gates[passed].foot;
-        double run = passed == ENF_NONE ? 0.0 : ways->distance[passed];
-        const EnfCell *c = &map->cells[cell];
-        for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
-            if (game->gates[p].walkable) {
-                reach(ways, p, run + enf_length(enf_sub(game->gates[p].foot, at)), passed);
-            }
-        }
-        if (ways->heap_count == 0) {
-            return 0;
-        }
-        passed = pop(ways);
-        cell = map->portals[passed].target;
-    }
-    uint32_t gates[SIM_ROUTE_MAX], count = 0, made = 0;
-    for (; passed != ENF_NONE; passed = ways->before[passed]) {
+/* The half-portals of the way, last first, into its stops. */
+static bool lay_stops(const Game *game, uint32_t passed, SimWay *way) {
+    uint32_t gates[SIM_ROUTE_MAX], count = 0;
+    for (; passed != ENF_NONE; passed = game->ways.before[passed]) {
         if (count == SIM_ROUTE_MAX / 2 - 1) {
-            return 0; /* farther than anybody chases */
+            return false; /* farther than anybody chases */
         }
         gates[count++] = passed;
     }
@@ -288,11 +265,47 @@ uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uin
         const EnfPortalState *state = &game->portals.states[gates[count]];
         EnfVec3 flat = enf_v3(state->normal.x, 0.0, state->normal.z), foot = game->gates[gates[count]].foot;
         EnfVec3 step = enf_scale(enf_normalize(flat), fabs(state->normal.y) > 0.7 ? 0.0 : BESIDE_GATE);
-        if (enf_dot(step, step) > 0.0) { /* on stairs through a floor, one point is enough */
-            out[made++] = enf_sub(foot, step);
+        for (int side = enf_dot(step, step) > 0.0 ? 0 : 1; side < 2;
+             side++) { /* on stairs through a floor, one point is enough */
+            way->at[way->count] = side ? enf_add(foot, step) : enf_sub(foot, step);
+            way->gate[way->count++] = gates[count];
         }
-        out[made++] = enf_add(foot, step);
     }
-    out[made++] = to;
-    return made;
+    return true;
+}
+
+/* Shortest on foot: doorways that can be walked through alone, shut ones too (they can be opened). Points before and behind each, so
+ * that nobody cuts its corners. */
+bool sim_route(Game *game, const SimErrand *errand, SimWay *way) {
+    const EnfMap *map = game->map;
+    SimWays *ways = &game->ways;
+    way->count = way->next = 0;
+    if (errand->from_cell >= map->cells_count || errand->to_cell >= map->cells_count) {
+        return false;
+    }
+    clear(game, ways);
+    uint32_t cell = errand->from_cell, passed = ENF_NONE;
+    uint32_t shun = errand->shun, twin = shun == ENF_NONE ? ENF_NONE : map->portals[shun].twin;
+    while (cell != errand->to_cell) {
+        EnfVec3 at = passed == ENF_NONE ? errand->from : game->gates[passed].foot;
+        double run = passed == ENF_NONE ? 0.0 : ways->distance[passed];
+        const EnfCell *c = &map->cells[cell];
+        for (uint32_t p = c->portal_first; p < c->portal_first + c->portal_count; p++) {
+            if (game->gates[p].walkable && p != shun && p != twin) {
+                reach(ways, p, run + enf_length(enf_sub(game->gates[p].foot, at)), passed);
+            }
+        }
+        if (ways->heap_count == 0) {
+            return false;
+        }
+        passed = pop(ways);
+        cell = map->portals[passed].target;
+    }
+    if (!lay_stops(game, passed, way)) {
+        way->count = 0;
+        return false;
+    }
+    way->at[way->count] = errand->to;
+    way->gate[way->count++] = ENF_NONE;
+    return true;
 }

@@ -2,9 +2,17 @@
 #ifndef ENF_GAME_SIM_SIM_H
 #define ENF_GAME_SIM_SIM_H
 
+#include "sim/foot.h"
 #include "sim/game.h"
 
-enum { SIM_SOUNDS_MAX = 64, SIM_SPOKEN_MAX = 32, SIM_KEY_SIZE = 32, SIM_STOPS_MAX = 32, SIM_ROUTE_MAX = 64 };
+enum {
+    SIM_SOUNDS_MAX = 64,
+    SIM_SPOKEN_MAX = 32,
+    SIM_KEY_SIZE = 32,
+    SIM_STOPS_MAX = 32,
+    SIM_ROUTE_MAX = 64,
+    SIM_TRACK_MAX = 64
+};
 
 /** Metres: how far a hand reaches. */
 #define SIM_REACH 2.0
@@ -28,13 +36,18 @@ typedef struct SimDoor {
     double open;     /**< the far end of its range: where opening leads */
     int64_t shut_at; /**< tick at which it begins to close, or INT64_MAX */
     int64_t stays;   /**< ticks that it stays open; 0: for ever */
+    int64_t turned;  /**< tick at which it turned back last, for somebody in its way */
     uint32_t locked, moving;
+    uint32_t cell, pad; /**< of its middle when shut: where it is heard from */
 } SimDoor;
 
 typedef struct SimLift {
     EnfObjectId object;
     uint32_t mover, stop, stop_count, moving;
+    uint32_t from, cell; /**< the stop that it left; the cell of its place at the start */
     uint64_t name;
+    int64_t turned; /**< as a door's */
+    EnfVec3 start;
     double stops[SIM_STOPS_MAX];
 } SimLift;
 
@@ -50,18 +63,43 @@ typedef struct SimItem {
     EnfVec3 at;   /**< where it lies */
 } SimItem;
 
+/** A way on foot: its stops in order, and the half-portal that each belongs to (ENF_NONE: the end). */
+typedef struct SimWay {
+    EnfVec3 at[SIM_ROUTE_MAX];
+    uint32_t gate[SIM_ROUTE_MAX];
+    uint32_t count, next;
+} SimWay;
+
+/** Where a guard off its round walks (walks.c). */
+typedef struct SimWalk {
+    EnfVec3 to;
+    SimWay way;
+    EnfVec3 track[SIM_TRACK_MAX],
+        track_to;   /**< footholds to a stop of the way, where there is more to it than going straight */
+    double nearest; /**< metres that it has come near to what it heads for */
+    int64_t way_at; /**< tick at which the way was found */
+    uint32_t to_cell, track_count, track_next;
+    uint32_t still;       /**< ticks without coming nearer */
+    uint32_t tries;       /**< of this stop that led nowhere */
+    uint32_t shun, shuns; /**< a half-portal not to be gone through, for it led nowhere; how many there were */
+    uint32_t wants;       /**< 1: a track is to be searched */
+    uint32_t door;        /**< 1: stands before a door that opens */
+} SimWalk;
+
 typedef struct SimGuard {
     EnfObjectId object;
     uint32_t mover, mood;
     EnfCharacter body;
     double yaw_deg, notice;
-    EnfVec3 last_seen; /**< where the player was when seen or heard last */
+    EnfVec3 last_seen; /**< where the player was when seen or heard last, or where he is looked for */
+    EnfVec3 home;      /**< the place of its round to which it returns */
+    int64_t home_at;   /**< the tick of the round there */
+    int64_t seen_at;   /**< tick at which it saw him last */
     int64_t until;     /**< tick at which the mood ends */
     int64_t start;     /**< tick at which its round's path began: time 0 */
     double stride;
-    uint32_t sees, route_count;
-    EnfVec3 route[SIM_ROUTE_MAX]; /**< the way it goes when off its round, next first */
-    int64_t route_at;             /**< tick at which it was found */
+    uint32_t sees, last_cell, home_cell, turned; /**< turned: ticks of looking round */
+    SimWalk walk;
 } SimGuard;
 
 typedef struct SimScore {
@@ -76,6 +114,13 @@ typedef struct SimGate {
     EnfVec3 middle, foot;
     bool walkable;
 } SimGate;
+
+/** From where to where. */
+typedef struct SimErrand {
+    EnfVec3 from, to;
+    uint32_t from_cell, to_cell;
+    uint32_t shun; /**< a half-portal that is as good as walled up, both ways, or ENF_NONE */
+} SimErrand;
 
 /** Shortest ways from a point through portals. */
 typedef struct SimWays {
@@ -103,6 +148,9 @@ struct Game {
     EnfCollider *collider;
     SimGate *gates; /**< a half-portal */
     SimWays ways, ears;
+    SimFoot foot;        /**< the guards' search for footholds, one at a time */
+    EnfVec3 foot_to;     /**< the stop that is searched */
+    uint32_t foot_guard; /**< whose it is, or ENF_NONE */
     double usual_light;
     EnfVec3 spawn;
     int32_t spawn_yaw;
@@ -126,6 +174,7 @@ struct Game {
     GameGuardView *guard_views;
     GameExhibitView *exhibit_views;
     GameSound sounds[SIM_SOUNDS_MAX];
+    uint32_t sound_cells[SIM_SOUNDS_MAX];
     uint32_t sound_count;
     SimSpeaker *speakers;
     uint32_t speaker_count, speaker_room;
@@ -154,7 +203,8 @@ int64_t sim_world_tick(const Game *game);
 /** The cell of a body's feet, which on stairs is not that of its eye. */
 uint32_t sim_feet_cell(const Game *game, const EnfCharacter *body);
 void sim_say(Game *game, const char *text);
-void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, double loudness);
+/** `cell`: of the place, which whoever makes the sound knows (to locate it costs a hundred times what the sound does). */
+void sim_sound(Game *game, GameSoundKind kind, EnfVec3 at_ws, uint32_t cell, double loudness);
 /** Degrees as the player looks: a unit vector. */
 EnfVec3 sim_look(double yaw_deg, double pitch_deg);
 /** Degrees: where something turned so looks with its own -z, level. */
@@ -171,6 +221,10 @@ void sim_doors_step(Game *game);
 bool sim_door_open(Game *game, uint32_t door, bool keys);
 /** The nearest door within `reach` of a point, towards `look` (zero: any side); ENF_NONE. */
 uint32_t sim_door_near(const Game *game, EnfVec3 at, EnfVec3 look, double reach);
+/** The first door that a body's straight way between two places meets; ENF_NONE. */
+uint32_t sim_door_between(const Game *game, EnfVec3 from, EnfVec3 to);
+/** Somebody is squeezed by this object of the world: if it is a door or an elevator, it goes back where it came from. */
+void sim_turn_back(Game *game, uint32_t object);
 
 void sim_lifts_start(Game *game);
 void sim_lifts_step(Game *game);
@@ -185,8 +239,31 @@ bool sim_has_key(const Game *game, uint64_t key);
 
 void sim_guards_start(Game *game);
 void sim_guards_step(Game *game);
-/** Something was heard at a place, `loudness` metres far. */
+/** Something of the player's was heard at a place, `metres` far. */
 void sim_guards_hear(Game *game, EnfVec3 at, double metres);
+
+typedef enum SimGoNews { SIM_GO_ON, SIM_GO_THERE, SIM_GO_NOWHERE } SimGoNews;
+/** A guard sets out anew. */
+void sim_walk_start(SimGuard *guard);
+/** One tick on foot: along portals, up and down stairs, round furniture, through doors, to within `near` metres. NOWHERE: every way it
+ *  tried ends at something; it may go on trying. */
+SimGoNews sim_walk(Game *game, SimGuard *guard, const SimErrand *errand, double speed, double near);
+/** One tick of the search for footholds, for whichever guard wants one. */
+void sim_walk_search(Game *game);
+/** Towards a place, as fast as a guard turns. */
+void sim_turn_to(SimGuard *guard, EnfVec3 to);
+
+/** A guard's round: its path of the map, from when it began it. */
+EnfMotion sim_round(const Game *game, const SimGuard *guard);
+/** Settles where the guard comes back to its round: home, home_at, home_cell. */
+void sim_round_find(Game *game, SimGuard *guard);
+/** Back on its path, which goes on from there. */
+void sim_round_resume(Game *game, SimGuard *guard);
+/** The object is where the body is, from this tick on. */
+void sim_guard_push(Game *game, SimGuard *guard);
+/** The body is where the path has it. */
+void sim_guard_follow(Game *game, SimGuard *guard);
+EnfVec3 sim_guard_eye(const SimGuard *guard);
 
 /** How much of the player a guard's eye sees, 0..1: 0 without a window onto him, a free line, or light (sight.c). */
 double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look);
@@ -198,12 +275,11 @@ bool sim_gates_create(Game *game);
 void sim_ways_find(Game *game, SimWays *ways, EnfVec3 from, uint32_t cell, double most);
 /** Metres along the ways to a point of a cell; `last` the half-portal by which it is entered (ENF_NONE: same cell). HUGE_VAL if none. */
 double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t cell, uint32_t *last);
-/** The way on foot from one place to another, as points; 0 if there is none. */
-uint32_t sim_route(Game *game, EnfVec3 from, uint32_t from_cell, EnfVec3 to, uint32_t to_cell, EnfVec3 out[SIM_ROUTE_MAX]);
+/** The way on foot from one place to another; false if there is none. */
+bool sim_route(Game *game, const SimErrand *errand, SimWay *way);
 
-/** Fills in how the player hears a sound; of a cell that is known. */
-void sim_hear(Game *game, GameSound *sound);
-void sim_hear_in(Game *game, GameSound *sound, uint32_t cell);
+/** Fills in how the player hears a sound of that cell. */
+void sim_hear(Game *game, GameSound *sound, uint32_t cell);
 
 /** Finds what sounds by itself; false: no memory. */
 bool sim_speakers_create(Game *game);

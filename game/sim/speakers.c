@@ -19,7 +19,7 @@ static void say(Game *game, const SimSpeaker *speaker, GameSoundKind kind, EnfVe
     }
     GameSpeaker *out = &game->spoken[game->spoken_count];
     *out = (GameSpeaker){{kind, at_ws, loudness, 0.0, at_ws, 0.0}, speaker->id, false};
-    sim_hear_in(game, &out->sound, cell);
+    sim_hear(game, &out->sound, cell);
     game->spoken_count += out->sound.gain >= GAME_GAIN_LEAST;
 }
 

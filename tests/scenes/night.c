@@ -107,6 +107,17 @@ static void add_lift(EnfNight *night) {
     enf_maker_mover(m, &button);
 }
 
+static void add_stage(EnfNight *night) {
+    EnfMaker *m = night->maker;
+    enf_maker_group(m);
+    enf_maker_box(m, night->west, 0, (EnfBox3){{0, 0, 5.5}, {2.5, 1.5, 8}}, false);
+    for (int i = 0; i < 4; i++) {
+        double x = 4.1 - 0.4 * i;
+        enf_maker_box(m, night->west, 0, (EnfBox3){{x - 0.4, 0, 5.5}, {x, 0.3 * (i + 1), 8}}, false);
+    }
+    enf_maker_box(m, night->west, 0, (EnfBox3){{6, 0, 2}, {6.1, 1.5, 6}}, false);
+}
+
 bool enf_night_create(EnfNight *night, const EnfNightDef *def, EnfError *error) {
     memset(night, 0, sizeof *night);
     EnfMaker *m = night->maker = enf_maker_create();
@@ -114,6 +125,9 @@ bool enf_night_create(EnfNight *night, const EnfNightDef *def, EnfError *error) 
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for a night") == ENF_OK;
     }
     night->west = room(m, "west-room", 0, -1.0);
+    if (def->stage) {
+        add_stage(night);
+    }
     if (def->lamps) {
         enf_maker_light(m, night->west, enf_v3(4, 2.75, 4), (EnfVec3f){20, 20, 20}, 20.0f);
     }

@@ -12,7 +12,10 @@ typedef struct EnfNightDef {
     bool
         lift; /**< a plate about (6, 0, 7) with stops at 0 and 2 m, "lift", and a button for it, "button", at (7.9, 1.2, 7.9) */
     bool sounds; /**< a fountain in the west at (4, 0, 7); a clock in the east at (14, 2, 6) that shows 0:59:58 at the start */
-    bool lamps;  /**< a lamp in each room; else nothing is lit, which is the same as evenly lit */
+    bool
+        stage; /**< in the west a stage 1.5 m high, x 0..2.5 and z 5.5..8, steps up to it from x 4.5, and a screen of 1.5 m before
+                     the doorway at x 6, z 2..6, that one has to go round */
+    bool lamps; /**< a lamp in each room; else nothing is lit, which is the same as evenly lit */
 } EnfNightDef;
 
 typedef struct EnfNight {

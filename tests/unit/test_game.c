@@ -246,7 +246,7 @@ static void test_sounds_come_from_the_doorway(void **state) {
     Play play;
     /* The lift stops in the west while the player is in the east. */
     open_play(&play, (EnfNightDef){.lift = true}, true);
-    run(&play, "enfbot 1\nrun on\npress button\ngoto point 9.5 0 4\nlook by 1 0\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\nrun on\ngoto point 7 0 6\npress button\ngoto cell east-room\nlook by 1 0\n", NULL, NULL, MOST);
     bool found = false;
     for (int i = 0; i < 600 && !found; i++) {
         uint32_t count;
