@@ -69,7 +69,8 @@ static EnfResult open_files(App *app, EnfError *error) {
     EnfResult result = enf_map_read(&app->map, app->options.map, NULL, error);
     app->map_read = result == ENF_OK;
     result = result ? result : open_river(app, error);
-    if (result == ENF_OK && (app->options.play || app->options.record)) {
+    const Options *o = &app->options;
+    if (result == ENF_OK && (o->play || o->record || (o->headless && !o->tour))) {
         result = play_open(&app->play, &app->map, &app->options, error);
     }
     return result;
@@ -131,26 +132,6 @@ int app_fail(const EnfError *error) {
     return ENF_EXIT_FAILURE;
 }
 
-/* ---- a frame ------------------------------------------------------------------------------------------------------------ */
-
-static void draw_frame(App *app) {
-    EnfVec3 eye_ws;
-    EnfTurn turn;
-    double alpha = modes_eye(app, &eye_ws, &turn);
-    uint32_t width = (uint32_t)app->width_px, height = (uint32_t)app->height_px;
-    scene_look(&app->scene, eye_ws, turn, app->settings.fov);
-    engineer_measure(app, alpha);
-    scene_see(&app->scene, alpha);
-    scene_paint(&app->scene);
-    engineer_lines(app);
-    enf_gl_target_show(app->scene.target, width, height);
-    canvas_begin(&app->canvas, width, height);
-    hud_draw(app);
-    engineer_draw(app);
-    menu_draw(app);
-    enf_gl_ui_draw(app->ui, app->canvas.vertices, app->canvas.count, width, height);
-}
-
 /* ---- telling a test --------------------------------------------------------------------------------------------------------- */
 
 static void tell(App *app) {
@@ -197,13 +178,13 @@ static int run_frames(App *app, EnfError *error) {
         app->engineer.frame_ms[app->engineer.frame++ % GRAPH_FRAMES] = now - last;
         last = now;
         if (app->width_px > 0 && app->height_px > 0 && app->scene.target) {
-            draw_frame(app);
+            frame_draw(app);
         }
         count_heap(app, heap);
         app->frames++;
         bool ends = app->options.frames && app->frames >= app->options.frames;
         ends = ends || (app->options.frames && app->play.replays && app->play.replay_ended);
-        if (ends && app->options.shot && window_shot(app, app->options.shot, error) != ENF_OK) {
+        if (ends && app->options.shot && frame_shot(app, app->options.shot, error) != ENF_OK) {
             status = app_fail(error);
         }
         SDL_GL_SwapWindow(app->window);
@@ -298,7 +279,7 @@ static int run_window(App *app) {
     return status;
 }
 
-static void close_all(App *app) {
+void app_close(App *app) {
     engineer_destroy(app);
     plan_destroy(&app->plan);
     scene_destroy(&app->scene);
@@ -310,12 +291,25 @@ static void close_all(App *app) {
         SDL_GameControllerClose(app->input.pad);
     }
     window_close(app);
+    enf_context_destroy(app->blind);
     if (app->map_read) {
         enf_map_free(&app->map);
     }
     canvas_destroy(&app->canvas);
     enf_free(NULL, app->atlas, FONT_ATLAS_WIDTH, FONT_ATLAS_HEIGHT);
     SDL_Quit();
+    memset(app, 0, sizeof *app);
+}
+
+EnfResult app_open(App *app, EnfError *error) {
+    app->menu.waiting = -1;
+    app->atlas = enf_alloc(NULL, FONT_ATLAS_WIDTH, FONT_ATLAS_HEIGHT);
+    if (!app->atlas) {
+        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the letters");
+    }
+    font_draw_atlas(app->atlas);
+    EnfResult result = canvas_create(&app->canvas, error);
+    return result ? result : open_files(app, error);
 }
 
 int app_run(App *app) {
@@ -324,18 +318,7 @@ int app_run(App *app) {
     if (!find_map(&app->options, map_path)) {
         return ENF_EXIT_FAILURE;
     }
-    int status;
-    app->menu.waiting = -1;
-    app->atlas = enf_alloc(NULL, FONT_ATLAS_WIDTH, FONT_ATLAS_HEIGHT);
-    if (!app->atlas || canvas_create(&app->canvas, &error) != ENF_OK) {
-        fprintf(stderr, "enfilade: no memory\n");
-        status = ENF_EXIT_FAILURE;
-    } else if (open_files(app, &error) != ENF_OK) {
-        status = app_fail(&error);
-    } else {
-        font_draw_atlas(app->atlas);
-        status = app->options.headless ? headless_run(app) : run_window(app);
-    }
-    close_all(app);
+    int status = app_open(app, &error) ? app_fail(&error) : app->options.headless ? headless_run(app) : run_window(app);
+    app_close(app);
     return status;
 }

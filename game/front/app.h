@@ -55,6 +55,7 @@ typedef struct Input {
     SDL_GameController *pad;
     double pad_forward, pad_right, pad_yaw, pad_pitch; /**< -1..1 */
     uint32_t pad_buttons;
+    bool pad_pushed[2]; /**< in a menu: the left stick stands aside, left or right; up or down */
 } Input;
 void input_release(Input *input); /**< as if every key was let go */
 EnfInput input_take(Input *input, const Settings *settings, double pitch_deg);
@@ -109,6 +110,7 @@ typedef struct App {
     char config[SETTINGS_PATH_SIZE]; /**< "" : nowhere to save */
     SDL_Window *window;
     SDL_GLContext context;
+    EnfContext *blind;       /**< without a window; else NULL */
     int width_px, height_px; /**< of the window, in pixels */
     EnfGlUi *ui;
     Canvas canvas;
@@ -149,8 +151,12 @@ EnfResult window_ui(App *app, EnfError *error); /**< the user interface in the c
 void window_measure(App *app);                  /**< asks for its size; a target of that size */
 void window_apply(App *app);                    /**< size and fullscreen as set */
 void window_capture(App *app, bool on);         /**< the mouse turns the head */
-EnfResult window_shot(App *app, const char *path, EnfError *error);
 void *window_load(const char *name);
+
+/* frame.c */
+void frame_draw(App *app);
+/** Writes what was drawn last as a picture. */
+EnfResult frame_shot(App *app, const char *path, EnfError *error);
 
 /* loading.c */
 EnfResult loading_run(App *app, EnfError *error);
@@ -163,7 +169,8 @@ void modes_title(App *app);
 EnfResult modes_play(App *app, EnfError *error);  /**< a new game, or the recording of the options */
 EnfResult modes_enter(App *app, EnfError *error); /**< the game that is open */
 void modes_tour(App *app);
-void modes_step(App *app, double elapsed_ms);
+void modes_step(App *app, double elapsed_ms); /**< the ticks of that time, as many as are due; none while paused */
+void modes_tick(App *app);                    /**< one */
 /** Where the picture is taken from now, and how far it is between ticks. */
 double modes_eye(const App *app, EnfVec3 *eye_ws, EnfTurn *turn);
 /** The world of title and tour, and the river in it if its file is there. */
@@ -196,8 +203,14 @@ void engineer_measure(App *app, double alpha);
 
 /* headless.c */
 int headless_run(App *app);
+/** All that a frame takes but for a window; the map is read. Its pictures are width × height. */
+EnfResult headless_open(App *app, uint32_t width, uint32_t height, EnfError *error);
 
 /* app.c */
+/** What needs neither window nor device: the files that were named, and what lies between them and a picture. */
+EnfResult app_open(App *app, EnfError *error);
+/** Closes whatever is open, and zeroes it. */
+void app_close(App *app);
 /** The program, with options that were parsed; returns its exit status. Leaves nothing behind. */
 int app_run(App *app);
 /** Says what went wrong on stderr; returns ENF_EXIT_FAILURE. Nothing waits: who reads it may be a script. */

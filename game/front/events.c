@@ -1,6 +1,7 @@
 /* Keys, mouse, gamepad, window: who gets them, in menus and in the game. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "front/app.h"
@@ -36,7 +37,7 @@ static void take_shot(App *app) {
     char path[64];
     EnfError error = {0};
     snprintf(path, sizeof path, "enfilade_%03u.png", app->shots++);
-    hud_notice(app, window_shot(app, path, &error) == ENF_OK ? path : error.message);
+    hud_notice(app, frame_shot(app, path, &error) == ENF_OK ? path : error.message);
 }
 
 static void menu_key(App *app, SDL_Scancode code) {
@@ -159,7 +160,28 @@ static void pad_removed(App *app, SDL_JoystickID which) {
     }
 }
 
+static void pad_menu(App *app, uint8_t pressed);
+
+/* In menus a stick is four keys: pressed when it leaves its middle, let go when it comes back. */
+static void pad_stick_menu(App *app, const SDL_ControllerAxisEvent *event) {
+    static const uint8_t keys[2][2] = {{SDL_CONTROLLER_BUTTON_DPAD_LEFT, SDL_CONTROLLER_BUTTON_DPAD_RIGHT},
+                                       {SDL_CONTROLLER_BUTTON_DPAD_UP, SDL_CONTROLLER_BUTTON_DPAD_DOWN}};
+    if (event->axis != SDL_CONTROLLER_AXIS_LEFTX && event->axis != SDL_CONTROLLER_AXIS_LEFTY) {
+        return;
+    }
+    int which = event->axis == SDL_CONTROLLER_AXIS_LEFTY,
+        far = abs(event->value) > (app->input.pad_pushed[which] ? 12000 : 20000);
+    if (far && !app->input.pad_pushed[which]) {
+        pad_menu(app, keys[which][event->value > 0]);
+    }
+    app->input.pad_pushed[which] = far != 0;
+}
+
 static void pad_axis(App *app, const SDL_ControllerAxisEvent *event) {
+    if (menu_page(app) != MENU_NONE) {
+        pad_stick_menu(app, event);
+        return;
+    }
     double value = (double)event->value / 32767.0;
     double size = fabs(value) < PAD_DEAD ? 0.0 : (fabs(value) - PAD_DEAD) / (1.0 - PAD_DEAD);
     value = value < 0.0 ? -size : size;

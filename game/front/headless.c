@@ -9,22 +9,71 @@
 
 enum { TOUR_FRAMES = 240, TOUR_SECONDS_MAX = 1800 };
 
-/* ---- a recording -------------------------------------------------------------------------------------------------------- */
+EnfResult headless_open(App *app, uint32_t width, uint32_t height, EnfError *error) {
+    EnfResult result = enf_context_create(&app->blind, ENF_CONTEXT_ANY, error);
+    EnfGlLoadFn *load = result ? NULL : enf_context_loader(app->blind);
+    app->width_px = (int)width;
+    app->height_px = (int)height;
+    result = result ? result : enf_gl_create(&app->gl, &app->map, load, error);
+    result = result ? result : scene_create(&app->scene, &app->map, app->gl, load, error);
+    result = result ? result : scene_resize(&app->scene, width, height, error);
+    result = result ? result : plan_create(&app->plan, &app->map, error);
+    result = result ? result : engineer_create(app, error);
+    result = result ? result : modes_tour_world(app, error);
+    result = result ? result : enf_gl_ui_create(&app->ui, load, app->atlas, FONT_ATLAS_WIDTH, FONT_ATLAS_HEIGHT, error);
+    return result ? result : scene_attach(&app->scene, app->tour_world, &app->tour_portals, error);
+}
 
-static int run_play(App *app) {
-    static const EnfInput nothing;
-    while (!app->play.replay_ended) {
-        play_step(&app->play, &nothing);
+static EnfResult open_drawing(App *app, EnfError *error) {
+    const uint32_t *size = app->options.size;
+    return headless_open(app, size[0] ? size[0] : 1280, size[0] ? size[1] : 720, error);
+}
+
+/* The frame as it is now, if a picture is wanted. */
+static EnfResult take_shot(App *app, EnfError *error) {
+    if (!app->options.shot) {
+        return ENF_OK;
     }
-    if (app->play.diverged) {
-        printf("differs from its recording at tick %llu\n", (unsigned long long)app->play.divergence.tick);
+    frame_draw(app);
+    return frame_shot(app, app->options.shot, error);
+}
+
+/* ---- a game --------------------------------------------------------------------------------------------------------------- */
+
+static int tell_replay(const App *app, uint64_t ticks) {
+    const Play *play = &app->play;
+    if (play->diverged) {
+        printf("differs from its recording at tick %llu\n", (unsigned long long)play->divergence.tick);
         return ENF_EXIT_FAILURE;
     }
-    const GameState *s = game_state(app->play.game);
+    const GameState *s = game_state(play->game);
     static const char *const phases[] = {"playing", "won", "lost"};
-    printf("%llu ticks as recorded; %s, %u of %u exhibits carried out\n", (unsigned long long)app->play.replay.ticks,
-           phases[s->phase], s->delivered, s->wanted);
+    printf("%llu ticks as recorded; %s, %u of %u exhibits carried out\n", (unsigned long long)ticks, phases[s->phase],
+           s->delivered, s->wanted);
     return ENF_EXIT_OK;
+}
+
+/* A recording to its end, or --frames ticks of it; or as many ticks of a game that nobody plays. */
+static int run_game(App *app) {
+    EnfError error = {0};
+    static const EnfInput nothing;
+    uint64_t ticks = 0, most = app->options.frames ? app->options.frames : app->play.replays ? UINT64_MAX : 1;
+    EnfResult result = app->options.shot ? open_drawing(app, &error) : ENF_OK;
+    result = result || !app->options.shot ? result : modes_enter(app, &error);
+    if (result != ENF_OK) {
+        return app_fail(&error);
+    }
+    for (; ticks < most; ticks++) {
+        play_step(&app->play, &nothing);
+        if (app->play.replay_ended) {
+            break;
+        }
+        scene_tick(&app->scene);
+    }
+    if (take_shot(app, &error) != ENF_OK) {
+        return app_fail(&error);
+    }
+    return app->play.replays ? tell_replay(app, ticks) : ENF_EXIT_OK;
 }
 
 /* ---- the tour ------------------------------------------------------------------------------------------------------------ */
@@ -101,30 +150,18 @@ static int run_tour(App *app) {
     return ENF_EXIT_OK;
 }
 
-static int open_tour(App *app, EnfContext **context, EnfError *error) {
-    uint32_t width = app->options.size[0] ? app->options.size[0] : 1280;
-    uint32_t height = app->options.size[0] ? app->options.size[1] : 720;
-    EnfResult result = enf_context_create(context, ENF_CONTEXT_ANY, error);
-    EnfGlLoadFn *load = result ? NULL : enf_context_loader(*context);
-    result = result ? result : enf_gl_create(&app->gl, &app->map, load, error);
-    result = result ? result : scene_create(&app->scene, &app->map, app->gl, load, error);
-    result = result ? result : scene_resize(&app->scene, width, height, error);
-    result = result ? result : modes_tour_world(app, error);
-    result = result ? result : scene_attach(&app->scene, app->tour_world, &app->tour_portals, error);
-    return result ? app_fail(error) : run_tour(app);
-}
+/* ---- all ------------------------------------------------------------------------------------------------------------------ */
 
 int headless_run(App *app) {
     EnfError error = {0};
-    EnfContext *context = NULL;
     app->settings = settings_default();
-    if (app->options.play) {
-        return run_play(app);
+    if (!app->options.tour) {
+        return run_game(app);
     }
-    int status = open_tour(app, &context, &error);
-    scene_destroy(&app->scene); /* while their context lives */
-    enf_gl_destroy(app->gl);
-    app->gl = NULL;
-    enf_context_destroy(context);
-    return status;
+    if (open_drawing(app, &error) != ENF_OK) {
+        return app_fail(&error);
+    }
+    app->mode = APP_TOUR;
+    int status = run_tour(app);
+    return take_shot(app, &error) == ENF_OK ? status : app_fail(&error);
 }

@@ -161,6 +161,15 @@ static void tour_tick(App *app) {
     }
 }
 
+void modes_tick(App *app) {
+    app->ticks++;
+    if (app->mode == APP_PLAYING) {
+        play_tick(app);
+    } else {
+        tour_tick(app);
+    }
+}
+
 static bool paused(const App *app) {
     return app->mode == APP_PLAYING && menu_page(app) != MENU_NONE && !app->over_shown;
 }
@@ -175,12 +184,7 @@ void modes_step(App *app, double elapsed_ms) {
     app->behind_ms = app->behind_ms > most ? most : app->behind_ms;
     while (app->behind_ms >= TICK_MS) {
         app->behind_ms -= TICK_MS;
-        app->ticks++;
-        if (app->mode == APP_PLAYING) {
-            play_tick(app);
-        } else {
-            tour_tick(app);
-        }
+        modes_tick(app);
     }
 }
 

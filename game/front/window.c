@@ -1,8 +1,7 @@
-/* Makes the window and the context of OpenGL 3.3, and pictures of what it shows. */
+/* Makes the window and the context of OpenGL 3.3. */
 #include <stdio.h>
 #include <string.h>
 
-#include "common/png_file.h"
 #include "front/app.h"
 
 static EnfResult sdl_error(EnfError *error, const char *what) {
@@ -53,8 +52,10 @@ EnfResult window_ui(App *app, EnfError *error) {
 }
 
 void window_close(App *app) {
-    if (app->context) {
+    if (app->context || app->blind) {
         enf_gl_ui_destroy(app->ui);
+    }
+    if (app->context) {
         SDL_GL_DeleteContext(app->context);
     }
     if (app->window) {
@@ -82,6 +83,9 @@ void window_measure(App *app) {
 
 void window_apply(App *app) {
     const Settings *s = &app->settings;
+    if (!app->window) {
+        return;
+    }
     SDL_SetWindowFullscreen(app->window, s->fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0U);
     if (!s->fullscreen) {
         SDL_SetWindowSize(app->window, (int)s->width, (int)s->height);
@@ -91,26 +95,10 @@ void window_apply(App *app) {
 }
 
 void window_capture(App *app, bool on) {
-    if (on != app->captured) {
-        app->captured = on;
+    bool changes = on != app->captured;
+    app->captured = on;
+    if (changes && app->window) {
         SDL_SetRelativeMouseMode(on ? SDL_TRUE : SDL_FALSE);
         SDL_GetRelativeMouseState(NULL, NULL);
     }
-}
-
-EnfResult window_shot(App *app, const char *path, EnfError *error) {
-    uint32_t width = (uint32_t)app->width_px, height = (uint32_t)app->height_px;
-    size_t row = (size_t)width * 4;
-    uint8_t *rgba = enf_alloc(NULL, 2 * (size_t)height, row);
-    if (!rgba) {
-        return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for a picture");
-    }
-    enf_gl_ui_read(app->ui, width, height, rgba);
-    uint8_t *flipped = rgba + row * height;
-    for (uint32_t y = 0; y < height; y++) {
-        memcpy(flipped + y * row, rgba + (height - 1 - y) * row, row);
-    }
-    EnfResult result = enf_png_write(path, flipped, width, height, true, error);
-    enf_free(NULL, rgba, 2 * (size_t)height, row);
-    return result;
 }

@@ -82,6 +82,9 @@ check "warm frames call no heap" test "${heap:-1}" -eq 0
 check "sounds were mixed" test "${mixed:-0}" -gt 10000
 check "the recording verifies without a window" "$bin/enfreplay" verify --map "$work/palace.enfmap" "$work/night.enfreplay"
 check "and in the game" env LD_PRELOAD="$preload" "$bin/enfilade" --map "$work/palace.enfmap" --headless --play "$work/night.enfreplay"
+check "and as a picture" env LD_PRELOAD="$preload" "$bin/enfilade" --map "$work/palace.enfmap" --headless --play "$work/night.enfreplay" \
+    --shot night.png --frames 100 --size 320x180
+check "that is written" test "$(stat -c %s night.png)" -gt 10000
 
 # The same in a window, fast, to its end.
 check "and in a window" timeout 120 env LD_PRELOAD="$preload" "$bin/enfilade" --map "$work/palace.enfmap" --play "$work/night.enfreplay" \

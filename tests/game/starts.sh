@@ -50,6 +50,16 @@ DISPLAY=:$(cat display)
 export DISPLAY
 DISPLAY=:9999 refused 1 'no display: nothing answers at DISPLAY=:9999.*--headless' --map "$map"
 
+# Pictures without a window, and without a display.
+unset DISPLAY
+check "a picture of a new game" "$bin/enfilade" --map "$map" --headless --shot new.png --size 320x180
+check "is one" test "$(stat -c %s new.png)" -gt 10000
+check "a picture of the tour" "$bin/enfilade" --map "$map" --river "$source/maps/palace/river.csv" --headless --tour --frames 2 --shot tour.png --size 320x180
+check "is another" test "$(stat -c %s tour.png)" -gt 10000 -a "$(cmp -s new.png tour.png; echo $?)" -eq 1
+refused 1 'no/such/folder.png' --map "$map" --headless --shot no/such/folder.png
+DISPLAY=:$(cat display)
+export DISPLAY
+
 settings=config/enfilade/settings.json
 mkdir -p config/enfilade
 echo '{"width": 640, "height": 400, "vsync": false, "sensitivity": 1.5}' >"$settings"
