@@ -1,5 +1,5 @@
-/* The experiments on moving objects as they are called: every technique lists the same objects, none is lost and no volume is late;
- * knobs that are wrong are refused. Times are not looked at. */
+/* The experiments on moving objects as they are called: every technique that goes by walls lists the same objects, those that go by
+ * the picture lose no pixel of it, none is lost and no volume is late; knobs that are wrong are refused. Times are not looked at. */
 #include "harness/harness.h"
 
 #include <stdio.h>
@@ -19,7 +19,7 @@ static int run(const char *arguments, char **text) {
     return status;
 }
 
-enum { LOST = 7, HASH = 15, LATE = 28, COLUMNS = 30 };
+enum { LOST = 7, OVERDRAW = 9, OBJECTS = 14, HASH = 15, EVALUATED = 23, AVOIDED = 27, LATE = 28, COLUMNS = 30 };
 
 /* Splits a line of the CSV at commas outside quotes. */
 static uint32_t split(char *line, char *columns[COLUMNS]) {
@@ -78,6 +78,49 @@ static void test_every_technique_lists_the_same(void **state) {
     }
 }
 
+/* The hierarchical Z-buffer and volumes in its octree against the picture: no object that shows a pixel is lost, and few others are
+ * listed. The one evaluates every object, the other leaves hidden ones alone. */
+static void check_greene(char *text, double movers) {
+    char *rest = NULL;
+    (void)strtok_r(text, "\n", &rest);
+    for (int row = 0; row < 2; row++) {
+        char *columns[COLUMNS] = {NULL};
+        char *line = strtok_r(NULL, "\n", &rest);
+        assert_non_null(line);
+        assert_int_equal(split(line, columns), COLUMNS);
+        assert_string_equal(columns[2], row == 0 ? "hierarchical-z" : "tbv");
+        assert_string_equal(columns[LOST], "0");
+        double evaluated = strtod(columns[EVALUATED], NULL);
+        double avoided = strtod(columns[AVOIDED], NULL);
+        assert_true(row == 0 ? evaluated == movers && avoided == 0.0 : evaluated < 0.7 * movers && avoided > 0.3 * movers);
+        assert_true(columns[OVERDRAW][0] == '\0' || strtod(columns[OVERDRAW], NULL) >= 1.0);
+        if (!(strtod(columns[OBJECTS], NULL) < 0.5 * movers)) {
+            fail_msg("%s lists %s of %g objects: it hides nothing", columns[2], columns[OBJECTS], movers);
+        }
+    }
+}
+
+static void test_hierarchical_z_loses_no_pixel(void **state) {
+    (void)state;
+    static const char *const motions[] = {"free", "linear", "spline", "character"};
+    static const char *const eyes[] = {"still", "walk", "jump"};
+    static const double leaves[] = {4.0, 1.5, 30.0};
+    for (int i = 0; i < 12; i++) {
+        char arguments[512];
+        char *text = NULL;
+        int movers = 60 + 20 * i;
+        snprintf(arguments, sizeof arguments,
+                 "S4 --set rooms=49 --set movers=%d --set frames=90 --set check=10 --set motion=%s --set eye=%s --set seed=%d "
+                 "--set leaf=%g --set occluders=%s --set doors=%d --set door_width=%g --set period=%d --set budget=1000 "
+                 "--set policy=hierarchical-z,tbv",
+                 movers, motions[i % 4], eyes[i / 4], i, leaves[i % 3], i % 2 == 0 ? "all" : "static", i % 5 == 4 ? 100 : 75,
+                 i % 5 == 4 ? 5.0 : 1.25, i % 7 == 6 ? 1 : 64);
+        assert_int_equal(run(arguments, &text), 0);
+        check_greene(text, movers);
+        free(text);
+    }
+}
+
 static void test_updates_from_both_ends_are_measured(void **state) {
     (void)state;
     static const char *const runs[] = {"S1 --set rooms=16 --set frames=3000 --set seed=3",
@@ -112,9 +155,10 @@ static void test_a_case_is_measured_once(void **state) {
 
 static void test_wrong_knobs_are_refused(void **state) {
     (void)state;
-    static const char *const wrong[] = {"movers --set motion=teleport", "movers --set eye=shut",   "movers --set rooms=0",
-                                        "movers --set policy=fastest",  "movers --set colour=red", "S7000",
-                                        "S1 --set policy=reach",        "movers --set movers"};
+    static const char *const wrong[] = {"movers --set motion=teleport", "movers --set eye=shut",       "movers --set rooms=0",
+                                        "movers --set policy=fastest",  "movers --set colour=red",     "S7000",
+                                        "S1 --set policy=reach",        "movers --set movers",         "S3 --set leaf=0",
+                                        "S3 --set occluders=chairs",    "S5 --set policy=hierarchical"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char *text = NULL;
         if (run(wrong[i], &text) == 0) {
@@ -125,6 +169,7 @@ static void test_wrong_knobs_are_refused(void **state) {
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_every_technique_lists_the_same),
+    cmocka_unit_test(test_hierarchical_z_loses_no_pixel),
     cmocka_unit_test(test_updates_from_both_ends_are_measured),
     cmocka_unit_test(test_a_case_is_measured_once),
     cmocka_unit_test(test_wrong_knobs_are_refused),

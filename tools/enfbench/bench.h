@@ -7,7 +7,7 @@
 
 #include <enfilade/base.h>
 
-#define BENCH_TEXT 160
+#define BENCH_TEXT 192
 
 /** One line of the result: a technique on a scene. Counts are means over the frames; -1 where a column does not apply. */
 typedef struct BenchRow {

@@ -21,6 +21,8 @@ MoversDef bench_movers_default(void) {
     def.speed = 1.4;
     def.doors = 75.0;
     def.door_width = 1.25;
+    def.leaf = 4.0;
+    def.occluders = true;
     def.budget = 20.0;
     def.motion = MOVERS_FREE;
     def.eye = MOVERS_WALK;
@@ -53,21 +55,27 @@ bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
     def->speed = bench_knob(knobs, "speed", def->speed, 1e-6, 1e3);
     def->doors = bench_knob(knobs, "doors", def->doors, 0.0, 100.0);
     def->door_width = bench_knob(knobs, "door_width", def->door_width, 0.25, 7.5);
+    def->leaf = bench_knob(knobs, "leaf", def->leaf, 0.5, 64.0);
     def->budget = bench_knob(knobs, "budget", def->budget, 0.001, 1e6);
+    static const char *const occluders[] = {"static", "all"};
+    int occluding = word(bench_knob_text(knobs, "occluders", occluders[def->occluders]), occluders, 2);
     int motion = word(bench_knob_text(knobs, "motion", motions[def->motion]), motions, 4);
     int eye = word(bench_knob_text(knobs, "eye", eyes[def->eye]), eyes, 3);
-    if (motion < 0 || eye < 0) {
-        fputs("enfbench: motion=free|linear|spline|character and eye=still|walk|jump are expected\n", stderr);
+    if (motion < 0 || eye < 0 || occluding < 0) {
+        fputs("enfbench: motion=free|linear|spline|character, eye=still|walk|jump and occluders=static|all are expected\n",
+              stderr);
         return false;
     }
     def->motion = (MoversMotion)motion;
     def->eye = (MoversEye)eye;
+    def->occluders = occluding == 1;
     def->visible = def->visible > def->movers ? def->movers : def->visible;
     const char *policy = bench_knob_text(knobs, "policy", "all");
     if (strcmp(policy, "all") != 0) {
         if (!bench_movers_known(policy)) {
             fprintf(stderr,
-                    "enfbench: policy=%s: techniques are expected, separated by commas: zbuffer, naive, lca, " EVERY "\n",
+                    "enfbench: policy=%s: techniques are expected, separated by commas: zbuffer, hierarchical-z, tbv, naive, "
+                    "lca, " EVERY "\n",
                     policy);
             return false;
         }
@@ -170,7 +178,8 @@ static MoversDef chairs(void) {
     def.frames = 900;
     def.check = 300;
     def.budget = 0.6;
-    snprintf(def.techniques, sizeof def.techniques, "zbuffer,update-all,flat,constant,adaptive,maximal,optimal,reach");
+    snprintf(def.techniques, sizeof def.techniques,
+             "zbuffer,hierarchical-z,tbv,update-all,flat,constant,adaptive,maximal,optimal,reach");
     return def;
 }
 
@@ -264,13 +273,24 @@ static MoversDef thesis(const ThesisScene *scene) {
     return def;
 }
 
-/* The same with as many as the thesis had not: most of them hidden. */
+/* Of scene 1, which hides nothing, all are visible. */
+static bool is_alone(const ThesisScene *scene) {
+    return scene->movers == scene->visible;
+}
+
+/* The same with as many as the thesis had not: most of them hidden, but of scene 1 none. */
 static MoversDef with_many(const ThesisScene *scene) {
     MoversDef def = thesis(scene);
-    def.rooms = 1024;
+    def.rooms = is_alone(scene) ? scene->rooms : 1024;
     def.movers = MANY;
-    def.visible = scene->visible > 1 ? 100 : 1;
+    def.visible = is_alone(scene) ? MANY : scene->visible > 1 ? 100 : 1;
     def.polygons = 12;
+    if (is_alone(scene)) { /* every frame is dear: fewer frames, fewer techniques */
+        def.frames = 90;
+        def.check = 45;
+        def.budget = 0.3;
+        snprintf(def.techniques, sizeof def.techniques, "zbuffer,update-all,flat,sweep,adaptive,reach");
+    }
     return def;
 }
 
@@ -282,7 +302,8 @@ static bool thesis_polygons(BenchRun *run, const ThesisScene *scene) {
         def.polygons = polygons[i];
         ok = one(run, scene->name, "test 1: polygons", def);
     }
-    for (size_t i = 0; i < 3 && ok && scene->movers > 1; i++) {
+    /* A hundred million visible polygons take seconds a frame with every technique. */
+    for (size_t i = 0; i < (is_alone(scene) ? 2U : 3U) && ok; i++) {
         MoversDef def = with_many(scene);
         def.polygons = polygons[i];
         ok = one(run, scene->name, "test 1: polygons, 100000 movers", def);
@@ -290,13 +311,12 @@ static bool thesis_polygons(BenchRun *run, const ThesisScene *scene) {
     return ok;
 }
 
-/* Of scene 1, all are visible. */
 static bool thesis_number(BenchRun *run, const ThesisScene *scene) {
     static const uint32_t movers[] = {1, 2, 4, 6, 8, 10, 1000, 10000, 100000};
-    bool alone = scene->movers == 1;
+    bool alone = is_alone(scene);
     bool ok = true;
     for (size_t i = alone ? 0 : 1; i < sizeof movers / sizeof *movers && ok; i++) {
-        MoversDef def = movers[i] > 10 && !alone ? with_many(scene) : thesis(scene);
+        MoversDef def = movers[i] > (alone ? 1000U : 10U) ? with_many(scene) : thesis(scene);
         def.movers = movers[i];
         def.polygons = 12;
         def.visible = scene->visible > 1 ? (movers[i] + 1) / 2 : scene->visible;
@@ -312,9 +332,6 @@ static bool thesis_speed(BenchRun *run, const ThesisScene *scene) {
     bool ok = true;
     for (size_t i = 0; i < 2 * (sizeof speeds / sizeof *speeds) && ok; i++) {
         bool many = i >= sizeof speeds / sizeof *speeds;
-        if (many && scene->movers == 1) {
-            break;
-        }
         MoversDef def = many ? with_many(scene) : thesis(scene);
         def.speed = speeds[i % (sizeof speeds / sizeof *speeds)];
         def.motion = MOVERS_FREE;

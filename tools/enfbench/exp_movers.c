@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum Kind { KIND_INDEX, KIND_FRUSTUM, KIND_FLAT, KIND_SWEEP, KIND_PLAIN, KIND_NONE } Kind;
+typedef enum Kind { KIND_INDEX, KIND_FRUSTUM, KIND_FLAT, KIND_SWEEP, KIND_PLAIN, KIND_GREENE, KIND_NONE } Kind;
 
 /* The techniques by the names that --set techniques= takes. */
 static const struct {
@@ -16,12 +16,20 @@ static const struct {
     EnfDbvUpdate update;
     uint32_t period; /* 0: the scene's */
 } techniques[] = {
-    {"zbuffer", KIND_NONE, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},   {"update-all", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"naive", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},  {"lca", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"flat", KIND_FLAT, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},      {"sweep", KIND_SWEEP, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"plain", KIND_PLAIN, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},    {"frustum", KIND_FRUSTUM, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
-    {"constant", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 0}, {"adaptive", KIND_INDEX, ENF_DBV_ADAPTIVE, ENF_DBV_LCA, 0},
-    {"maximal", KIND_INDEX, ENF_DBV_MAXIMAL, ENF_DBV_LCA, 0},   {"optimal", KIND_INDEX, ENF_DBV_OPTIMAL, ENF_DBV_LCA, 0},
+    {"zbuffer", KIND_NONE, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"hierarchical-z", KIND_GREENE, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},
+    {"tbv", KIND_GREENE, ENF_DBV_ADAPTIVE, ENF_DBV_NAIVE, 0},
+    {"update-all", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"naive", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_NAIVE, 1},
+    {"lca", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"flat", KIND_FLAT, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"sweep", KIND_SWEEP, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"plain", KIND_PLAIN, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"frustum", KIND_FRUSTUM, ENF_DBV_CONSTANT, ENF_DBV_LCA, 1},
+    {"constant", KIND_INDEX, ENF_DBV_CONSTANT, ENF_DBV_LCA, 0},
+    {"adaptive", KIND_INDEX, ENF_DBV_ADAPTIVE, ENF_DBV_LCA, 0},
+    {"maximal", KIND_INDEX, ENF_DBV_MAXIMAL, ENF_DBV_LCA, 0},
+    {"optimal", KIND_INDEX, ENF_DBV_OPTIMAL, ENF_DBV_LCA, 0},
     {"reach", KIND_INDEX, ENF_DBV_REACH, ENF_DBV_LCA, 0},
 };
 enum { TECHNIQUES = sizeof techniques / sizeof *techniques };
@@ -33,12 +41,21 @@ typedef struct Runner {
     EnfDbvIndex *index;
     Rival *rival;
     Plain *plain;
+    Greene *greene;
     uint32_t *all; /* zbuffer: everything */
     double *times, spent_us;
-    double drawn, lost, missed_frames;
-    uint32_t frames, timed;     /* timed: of the frames, those that count for time */
-    uint64_t hash, evaluations; /* evaluations: when the first frame began */
+    double *look_times;                /* greene: visibility alone */
+    double drawn, lost, listed, shown; /* listed, shown: objects of compared frames, where pixels are what is compared */
+    uint32_t frames, timed;            /* timed: of the frames, those that count for time */
+    uint64_t hash, evaluations;        /* evaluations: when the first frame began */
 } Runner;
+
+/* A scene while it is measured. */
+typedef struct Case {
+    MoversScene scene;
+    MoversWindows windows;
+    Truth *truth;
+} Case;
 
 static void close_runner(Runner *runner) {
     enf_dbv_destroy(runner->index);
@@ -47,8 +64,10 @@ static void close_runner(Runner *runner) {
     }
     bench_rival_destroy(runner->rival);
     bench_plain_destroy(runner->plain);
+    bench_greene_destroy(runner->greene);
     free(runner->all);
     free(runner->times);
+    free(runner->look_times);
 }
 
 static bool open_index(Runner *runner, const MoversScene *scene) {
@@ -87,6 +106,10 @@ static bool open_runner(Runner *runner, uint32_t technique, const MoversScene *s
     case KIND_PLAIN:
         runner->plain = bench_plain_create(scene);
         return ok && runner->plain != NULL;
+    case KIND_GREENE:
+        runner->look_times = calloc(scene->def.frames, sizeof *runner->look_times);
+        runner->greene = bench_greene_create(scene, techniques[technique].period == 0);
+        return ok && runner->look_times != NULL && runner->greene != NULL;
     case KIND_NONE:
         runner->all = calloc(scene->def.movers + 1U, sizeof *runner->all);
         break;
@@ -103,6 +126,14 @@ static const uint32_t *frustum_frame(const MoversScene *scene, Runner *runner, E
     const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &view);
     *count = set->object_count;
     return set->objects;
+}
+
+static const uint32_t *greene_frame(Runner *runner, const EnfView *view, uint32_t frame, uint32_t *count) {
+    bench_greene_move(runner->greene, (int64_t)frame);
+    double start = bench_now_us();
+    const uint32_t *list = bench_greene_look(runner->greene, view, count);
+    runner->look_times[runner->timed] = bench_now_us() - start;
+    return list;
 }
 
 /* The moving objects that a technique lists. */
@@ -126,6 +157,8 @@ static const uint32_t *find(const MoversScene *scene, Runner *runner, uint32_t f
                    : runner->all;
     case KIND_PLAIN:
         return bench_plain_frame(runner->plain, &view, (int64_t)frame, count);
+    case KIND_GREENE:
+        return greene_frame(runner, &view, frame, count);
     case KIND_NONE:
         view.cull = ENF_CULL_NONE;
         (void)enf_vis_run(scene->vis, &scene->portals, &view);
@@ -157,11 +190,47 @@ static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindo
     return missing;
 }
 
-static bool turn(const MoversScene *scene, Runner *runner, uint32_t frame, MoversWindows *windows) {
+/* The same against the picture itself, where walls alone do not decide. */
+static void compare_pixels(const MoversScene *scene, Runner *runner, const bool *shown, const uint32_t *list, uint32_t count) {
+    uint32_t k = 0;
+    for (uint32_t i = 0; i < scene->def.movers; i++) {
+        bool listed = k < count && list[k] == i;
+        k += listed ? 1U : 0U;
+        runner->lost += shown[i] && !listed ? 1.0 : 0.0;
+        runner->shown += shown[i] ? 1.0 : 0.0;
+    }
+    runner->listed += (double)count;
+}
+
+static bool compare(Case *current, Runner *runner, uint32_t frame, const uint32_t *list, uint32_t count) {
+    const MoversScene *scene = &current->scene;
+    if (runner->greene != NULL) {
+        current->truth = current->truth != NULL ? current->truth : bench_truth_create(scene);
+        if (current->truth != NULL) {
+            compare_pixels(scene, runner, bench_truth_shown(current->truth, frame), list, count);
+        }
+        return current->truth != NULL;
+    }
+    uint32_t *copy = malloc((count + 1U) * sizeof *copy);
+    if (copy == NULL) {
+        return false;
+    }
+    if (count > 0) { /* an empty list may be no array at all */
+        memcpy(copy, list, count * sizeof *copy);
+    }
+    const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[frame]);
+    bool ok = bench_movers_windows(scene, set, &current->windows);
+    runner->lost += ok ? (double)lost(scene, frame, &current->windows, copy, count) : 0.0;
+    free(copy);
+    return ok;
+}
+
+static bool turn(Case *current, Runner *runner, uint32_t frame) {
+    const MoversScene *scene = &current->scene;
     uint32_t count = 0;
     double cpu = bench_cpu_us();
     double start = bench_now_us();
-    const uint32_t *list = find(scene, runner, frame, windows, &count);
+    const uint32_t *list = find(scene, runner, frame, &current->windows, &count);
     double spent = bench_now_us() - start;
     cpu = bench_cpu_us() - cpu;
     spent = cpu < spent ? cpu : spent;                            /* another program may have had the processor in between */
@@ -172,27 +241,34 @@ static bool turn(const MoversScene *scene, Runner *runner, uint32_t frame, Mover
     runner->spent_us += spent;
     runner->drawn += (double)count;
     runner->hash = enf_hash64(runner->hash, list, count * sizeof *list);
-    if (frame % scene->def.check == 0 && runner->plain == NULL) { /* what `plain` lists is its own affair */
-        uint32_t *copy = malloc((count + 1U) * sizeof *copy);
-        if (copy == NULL) {
-            return false;
-        }
-        if (count > 0) { /* an empty list may be no array at all */
-            memcpy(copy, list, count * sizeof *copy);
-        }
-        const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[frame]);
-        bool ok = bench_movers_windows(scene, set, windows);
-        runner->lost += ok ? (double)lost(scene, frame, windows, copy, count) : 0.0;
-        free(copy);
-        return ok;
-    }
-    return true;
+    bool compared = frame % scene->def.check == 0 && runner->plain == NULL; /* what `plain` lists is its own affair */
+    return !compared || compare(current, runner, frame, list, count);
 }
 
 /* ---- rows ------------------------------------------------------------------------------------------------------- */
 
+static void add_greene_counters(const MoversScene *scene, const Runner *runner, BenchRow *row) {
+    double frames = (double)runner->frames;
+    GreeneCounters counters = bench_greene_counters(runner->greene);
+    row->nodes = (double)counters.nodes / frames;
+    row->boxes = (double)counters.boxes / frames;
+    row->evaluated = (double)counters.evaluated / frames;
+    row->exposed = (double)counters.exposed / frames;
+    row->expired = (double)counters.expired / frames;
+    row->reinserted = (double)counters.reinserted / frames;
+    row->avoided = (double)counters.avoided / frames;
+    row->overdraw = runner->shown > 0.0 ? runner->listed / runner->shown : -1.0;
+    row->bytes_object = (double)bench_greene_bytes(runner->greene) / (double)scene->def.movers;
+    row->vis_median_us = bench_quantile(runner->look_times, runner->timed, 0.5);
+    row->vis_p99_us = bench_quantile(runner->look_times, runner->timed, 0.99);
+}
+
 static void add_counters(const MoversScene *scene, const Runner *runner, BenchRow *row) {
     double frames = (double)runner->frames;
+    if (runner->greene != NULL) {
+        add_greene_counters(scene, runner, row);
+        return;
+    }
     if (runner->index == NULL) {
         row->evaluated = (double)scene->def.movers;
         return;
@@ -214,10 +290,12 @@ static void add_counters(const MoversScene *scene, const Runner *runner, BenchRo
 static void write_params(const MoversDef *def, char params[BENCH_TEXT]) {
     static const char *const motions[] = {"free", "linear", "spline", "character"};
     static const char *const eyes[] = {"still", "walk", "jump"};
-    snprintf(params, BENCH_TEXT,
-             "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u seed=%u",
-             def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors,
-             def->door_width, def->polygons, def->period, def->seed);
+    snprintf(
+        params, BENCH_TEXT,
+        "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u seed=%u leaf=%g "
+        "occluders=%s",
+        def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors, def->door_width,
+        def->polygons, def->period, def->seed, def->leaf, def->occluders ? "all" : "static");
 }
 
 static void add_row(BenchRun *run, const char *experiment, const char *name, const MoversScene *scene, Runner *runner) {
@@ -281,60 +359,72 @@ static bool is_measured(const BenchRun *run, const char *experiment, const char 
     return false;
 }
 
-static bool run_frames(BenchRun *run, const MoversScene *scene, Runner *runners, uint32_t count) {
-    MoversWindows windows = {NULL, 0, 0};
+/* A million volumes are made in the first second: that is not what shall use up the time. */
+static double patience(Runner *runner) {
+    bool volumes = runner->index != NULL || (runner->greene != NULL && techniques[runner->technique].period == 0);
+    if (volumes && runner->frames == 150) {
+        runner->spent_us = 0.0;
+    }
+    return volumes && runner->frames < 150 ? 4.0 : 1.0;
+}
+
+static bool run_frames(BenchRun *run, Case *current, Runner *runners, uint32_t count) {
+    const MoversDef *def = &current->scene.def;
     bool ok = true;
-    for (uint32_t f = 0; f < scene->def.frames && ok; f++) {
+    for (uint32_t f = 0; f < def->frames && ok; f++) {
         for (uint32_t i = 0; i < count && ok; i++) {
             Runner *runner = &runners[(i + f) % count];
-            /* A million volumes are made in the first second: that is not what shall use up the time. */
-            double patience = runner->index != NULL && runner->frames < 150 ? 4.0 : 1.0;
-            runner->spent_us = runner->index != NULL && runner->frames == 150 ? 0.0 : runner->spent_us;
-            if (runner->spent_us <= 1e6 * scene->def.budget * patience) {
-                ok = turn(scene, runner, f, &windows);
+            if (runner->spent_us <= 1e6 * def->budget * patience(runner)) {
+                ok = turn(current, runner, f);
                 if (runner->world != NULL) {
                     enf_world_advance(runner->world, 1);
                 }
             }
         }
-        bench_progress(run, "%u objects: frame %u of %u", scene->def.movers, f + 1, scene->def.frames);
+        bench_progress(run, "%u objects: frame %u of %u", def->movers, f + 1, def->frames);
     }
-    free(windows.items);
     return ok;
 }
 
+static void add_rows(BenchRun *run, const char *experiment, const char *name, const Case *current, Runner *runners,
+                     uint32_t count) {
+    uint32_t first = run->rows.count;
+    for (uint32_t i = 0; i < count; i++) {
+        add_row(run, experiment, name, &current->scene, &runners[i]);
+        BenchRow *rows = run->rows.rows;
+        rows[first + i].ratio_median = rows[first].median_us / rows[first + i].median_us;
+    }
+}
+
 bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
-    MoversScene scene;
+    Case current = {.windows = {NULL, 0, 0}, .truth = NULL};
     Runner runners[TECHNIQUES];
     uint32_t count = 0;
-    if (!bench_movers_open(&scene, def)) {
+    if (!bench_movers_open(&current.scene, def)) {
         return false;
     }
-    def = &scene.def; /* rooms are rounded up to a grid */
+    def = &current.scene.def; /* rooms are rounded up to a grid */
     if (is_measured(run, experiment, name, def)) {
-        bench_movers_close(&scene);
+        bench_movers_close(&current.scene);
         return true;
     }
     bool ok = true;
     for (uint32_t t = 0; t < TECHNIQUES && ok; t++) {
         if (is_chosen(def->techniques, techniques[t].name)) {
-            ok = open_runner(&runners[count++], t, &scene);
+            ok = open_runner(&runners[count++], t, &current.scene);
         }
     }
+    ok = ok && run_frames(run, &current, runners, count);
     if (ok) {
-        ok = run_frames(run, &scene, runners, count);
+        add_rows(run, experiment, name, &current, runners, count);
     } else {
         fprintf(stderr, "enfbench: no memory for %u objects\n", def->movers);
     }
-    uint32_t first_row = run->rows.count;
     for (uint32_t i = 0; i < count; i++) {
-        if (ok) {
-            add_row(run, experiment, name, &scene, &runners[i]);
-            BenchRow *rows = run->rows.rows;
-            rows[first_row + i].ratio_median = rows[first_row].median_us / rows[first_row + i].median_us;
-        }
         close_runner(&runners[i]);
     }
-    bench_movers_close(&scene);
+    free(current.windows.items);
+    bench_truth_destroy(current.truth);
+    bench_movers_close(&current.scene);
     return ok;
 }

@@ -25,7 +25,9 @@ typedef struct MoversDef {
     double speed;       /**< metres a second, at most */
     double doors;       /**< percent of the inner walls */
     double door_width;
-    double budget; /**< seconds that one technique may take; then it takes no more turns */
+    double leaf;    /**< `hierarchical-z`, `tbv`: side of the octree's leaves, metres */
+    bool occluders; /**< of these two: moving objects hide others too */
+    double budget;  /**< seconds that one technique may take; then it takes no more turns */
     MoversMotion motion;
     MoversEye eye;
     char techniques[BENCH_TEXT]; /**< names, separated by commas */
@@ -100,6 +102,28 @@ typedef struct RivalLists {
     const uint32_t *heads, *next;
 } RivalLists;
 RivalLists bench_rival_lists(Rival *rival, int64_t tick);
+
+/* ---- greene.c: the hierarchical Z-buffer, and temporal bounding volumes in its octree ---- */
+typedef struct Greene Greene;
+typedef struct GreeneCounters {
+    uint64_t nodes, boxes, evaluated, exposed, expired, reinserted, avoided;
+} GreeneCounters;
+Greene *bench_greene_create(const MoversScene *scene, bool volumes);
+void bench_greene_destroy(Greene *greene);
+/** Brings the octree to `tick`; ticks come one by one. */
+void bench_greene_move(Greene *greene, int64_t tick);
+/** The objects that are not hidden there, ascending: all that show a pixel are among them. */
+const uint32_t *bench_greene_look(Greene *greene, const EnfView *view, uint32_t *count);
+GreeneCounters bench_greene_counters(const Greene *greene);
+/** Of what it keeps for objects. */
+size_t bench_greene_bytes(const Greene *greene);
+
+/* ---- truth.c: the picture itself ---- */
+typedef struct Truth Truth;
+Truth *bench_truth_create(const MoversScene *scene);
+void bench_truth_destroy(Truth *truth);
+/** Which objects show a pixel in a frame: valid until the next call. */
+const bool *bench_truth_shown(Truth *truth, uint32_t frame);
 
 /* ---- plain.c: the least that finding can cost ---- */
 typedef struct Plain Plain;
