@@ -11,6 +11,13 @@ import sys
 
 ORDER = ["zbuffer", "hierarchical-z", "tbv", "update-all", "frustum", "flat", "sweep", "plain", "constant", "adaptive", "maximal", "optimal", "reach",
          "naive", "lca"]
+# A technique looks the same in every figure: colour, point, dash (volumes are drawn whole), width.
+LOOKS = {"zbuffer": ("#000000", 2, 2, 1.5), "hierarchical-z": ("#d62728", 5, 2, 2), "tbv": ("#ff7f0e", 4, 1, 2),
+         "update-all": ("#8c564b", 9, 2, 2), "frustum": ("#7f7f7f", 1, 2, 1.5), "flat": ("#9a9b00", 3, 2, 1.5),
+         "sweep": ("#17becf", 6, 2, 1.5), "plain": ("#aaaaaa", 12, 2, 1.5), "constant": ("#9467bd", 8, 1, 1.5),
+         "adaptive": ("#e377c2", 10, 1, 1.5), "maximal": ("#2ca02c", 11, 1, 1.5), "optimal": ("#66c2a5", 13, 1, 1.5),
+         "reach": ("#1f4fd0", 7, 1, 2.5), "naive": ("#d62728", 5, 2, 2), "lca": ("#1f4fd0", 7, 1, 2),
+         "B1": ("#1f4fd0", 7, 1, 2), "B2": ("#d62728", 5, 1, 2), "B3": ("#2ca02c", 9, 1, 2), "B4": ("#ff7f0e", 11, 1, 2)}
 VOLUMES = ("constant", "adaptive", "maximal", "optimal", "reach")
 
 
@@ -51,8 +58,21 @@ def curves(rows, x, y):
     return out
 
 
-def draw(folder, name, title, lines, xlabel, ylabel):
-    """An SVG for the page and a PNG beside it; the SVG's text, or nothing without gnuplot or points."""
+def around(values):
+    """A range for a logarithmic axis with a little room on both sides."""
+    return f"[{min(values) / 1.25:.9g}:{max(values) * 1.25:.9g}]"
+
+
+def tics(values):
+    """Marks of a logarithmic axis: powers of ten, and where these are few 2 and 5 times them."""
+    low, high = min(values) / 1.25, max(values) * 1.25
+    steps = (1, 2, 5) if high / low < 300 else (1,)
+    marks = [float(f"{step}e{power}") for power in range(-9, 12) for step in steps]
+    return "(" + ", ".join(f'"{mark:,.9g}" {mark:.9g}' for mark in marks if low <= mark <= high) + ")"
+
+
+def draw(folder, name, title, lines, xlabel, ylabel, even=False):
+    """An SVG for the page and a PNG beside it; the SVG's text, or nothing without gnuplot or points. `even`: marks 1."""
     if not lines or shutil.which("gnuplot") is None:
         return ""
     data = folder / (name + ".dat")
@@ -61,16 +81,28 @@ def draw(folder, name, title, lines, xlabel, ylabel):
             file.write(f'"{technique}"\n')
             file.writelines(f"{a:.9g} {b:.9g}\n" for a, b in points)
             file.write("\n\n")
-    for terminal, size in (("svg", "720,420"), ("png", "1080,630")):
-        script = f"""set terminal {terminal} size {size}
+    xs = [a for points in lines.values() for a, _ in points]
+    ys = [b for points in lines.values() for _, b in points] + ([1.0] if even else [])
+    plots = []
+    for i, technique in enumerate(lines):
+        colour, point, dash, width = LOOKS[technique]
+        plots.append(f'"{data}" index {i} using 1:2 with linespoints lc rgb "{colour}" pt {point} ps 0.8 dt {dash} lw {width} '
+                     f'title "{technique}"')
+    plots += ['1 with lines lc rgb "#888888" dt 3 lw 2 title "even"'] if even else []
+    for terminal, size in (("svg", "760,440"), ("png", "1140,660")):
+        script = f"""set terminal {terminal} size {size} noenhanced background rgb "white"
 set output "{folder / name}.{terminal}"
 set logscale xy
+set xtics {tics(xs)}
+set ytics {tics(ys)}
+set xrange {around(xs)}
+set yrange {around(ys)}
 set xlabel "{xlabel}"
 set ylabel "{ylabel}"
-set key outside right
-set grid
+set key outside right samplen 3
+set grid lc rgb "#cccccc"
 set title "{title}"
-plot for [i=0:{len(lines) - 1}] "{data}" index i using 1:2 with linespoints title columnheader(1)
+plot {", ".join(plots)}
 """
         subprocess.run(["gnuplot"], input=script, text=True, check=True)
     svg = (folder / (name + ".svg")).read_text()
@@ -337,7 +369,8 @@ def thesis(folder):
             points = ratio(curves(part, x, "mean_us"), "update-all", "reach")
             if points:
                 lines[name] = points
-        out.append(f"<h4>{heading}</h4>" + draw(folder, "B-difference-" + x, heading, lines, xlabel, "update-all / reach"))
+        out.append(f"<h4>{heading}</h4>" + draw(folder, "B-difference-" + x, heading, lines, xlabel,
+                                                 "portal culling / volumes (update-all / reach)", True))
         out.append(values_table(lines, xlabel) if lines else "")
     return "".join(out)
 
