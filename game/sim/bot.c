@@ -199,6 +199,10 @@ static GameBotNews obey(GameBot *bot, const BotCommand *command, EnfInput *input
         return hold(bot, ENF_BUTTON_CROUCH, command->index != 0);
     case BOT_RUN:
         return hold(bot, ENF_BUTTON_RUN, command->index != 0);
+    case BOT_SNEAK:
+        bot->sneak.on = command->index != 0;
+        bot->sneak.gait = bot->sneak.crumb_count = 0;
+        return GAME_BOT_DONE;
     case BOT_WAIT:
         return for_seconds(bot, number[0]);
     case BOT_WALK:
@@ -220,7 +224,7 @@ GameBotNews game_bot_next(GameBot *bot, EnfInput *input, EnfError *error) {
     const BotCommand *command = &bot->commands[bot->at];
     const char *why = "";
     GameBotNews news = obey(bot, command, input, &why);
-    input->buttons |= bot->held;
+    input->buttons |= bot->sneak.on ? (bot->held & ~(uint32_t)ENF_BUTTON_RUN) | bot->sneak.gait : bot->held;
     bot->tick++;
     if (news == GAME_BOT_FAILED) {
         enf_error_set(error, ENF_ERROR_RANGE, UINT64_MAX, "line %u of the bot's script: %s (tick %llu)", command->line, why,

@@ -13,6 +13,8 @@
  *      look by YAW PITCH         turns by so many degrees
  *      use | drop | jump         presses that once
  *      crouch on|off             held from here on; likewise `run`
+ *      sneak on|off              on its ways it keeps out of guards' sight and hearing, whose rounds it knows: it waits, crouches, goes
+ *                                back, steps aside; with `run on` it runs where nobody hears it
  *      wait SECONDS
  *      walk FORWARD RIGHT SECONDS    shares of full speed, -1 to 1, as the bot looks
  *      expect playing|won|lost SECONDS   waits until the game is so; fails if it is not within the time

@@ -21,6 +21,7 @@
     X(JUMP, "jump")                                                                                                            \
     X(CROUCH, "crouch")                                                                                                        \
     X(RUN, "run")                                                                                                              \
+    X(SNEAK, "sneak")                                                                                                          \
     X(WAIT, "wait")                                                                                                            \
     X(WALK, "walk")                                                                                                            \
     X(EXPECT, "expect")
@@ -50,8 +51,27 @@ typedef struct BotTrip {
     uint32_t rest;  /**< ticks to stand and wait */
     uint32_t tries; /**< plans that led nowhere */
     uint32_t ticks;
-    bool pressed; /**< `use`, in the tick before */
+    bool pressed;    /**< `use`, in the tick before */
+    double least;    /**< metres of way that were left at best */
+    uint32_t barred; /**< ticks without coming nearer, for the guards */
+    uint32_t shun;   /**< a half-portal to be gone round, or ENF_NONE */
 } BotTrip;
+
+enum { BOT_MOMENTS = 72, BOT_GUARDS_MAX = 48, BOT_CRUMBS_MAX = 512 };
+
+/** Keeping out of guards' sight and hearing (bot_sneak.c). */
+typedef struct BotSneak {
+    bool on;
+    bool looks[BOT_GUARDS_MAX];                /**< off its round: it may look anywhere */
+    SimEye eyes[BOT_MOMENTS][BOT_GUARDS_MAX];  /**< the guards', in the moments to come */
+    EnfVec3 crumbs[BOT_CRUMBS_MAX];            /**< where it came from, oldest first */
+    EnfVec3 to;                                /**< where it goes instead */
+    uint32_t crumb_count, care, gait, decided; /**< gait: ENF_BUTTON_*; decided: ticks ago */
+    uint32_t waited;                           /**< ticks */
+} BotSneak;
+
+/** What to do in this tick. */
+typedef enum BotCare { BOT_GOES, BOT_STANDS, BOT_BACKS, BOT_STEPS_ASIDE } BotCare;
 
 struct GameBot {
     EnfAllocator allocator;
@@ -63,6 +83,8 @@ struct GameBot {
     uint32_t held;      /**< ENF_BUTTON_* */
     BotTrip trip;
     SimFoot foot;
+    SimWay way; /**< on which foot leads to the next stop */
+    BotSneak sneak;
 };
 
 /** Script → commands. */
@@ -73,6 +95,10 @@ EnfVec3 bot_place_of(const GameBot *bot, uint32_t entity);
 void bot_trip_start(GameBot *bot, EnfVec3 to, uint32_t cell, double near, bool enter);
 /** A tick of the trip: GOES_ON, DONE (it is there) or FAILED. */
 GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why);
+/** Full speed towards a place, wherever it looks after this tick's turn. */
+void bot_head_for(const GameBot *bot, EnfVec3 at, EnfInput *input);
+/** Go on along foot.path and way, or keep away from guards; where it does not go on, `input` is filled in. */
+BotCare bot_sneak(GameBot *bot, EnfInput *input);
 /** Turns towards a place, at a person's speed; true once it looks there. */
 bool bot_look(const GameBot *bot, EnfVec3 at, EnfInput *input);
 

@@ -98,6 +98,7 @@ static EnfResult arguments(const Game *game, SimText line, BotCommand *command, 
         return numbers(line, 1, command, error);
     case BOT_CROUCH:
     case BOT_RUN:
+    case BOT_SNEAK:
         return choice(line, switched, 0, command, error);
     case BOT_EXPECT:
         return choice(line, phases, 1, command, error);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TRIP_TICKS = 240 * ENF_TICK_RATE, STILL_TICKS = 45, REST_TICKS = 30, TRIES = 24 };
+enum { TRIP_TICKS = 240 * ENF_TICK_RATE, SNEAK_TICKS = 900 * ENF_TICK_RATE, STILL_TICKS = 45, REST_TICKS = 30, TRIES = 24 };
 /* Degrees that it turns in a tick, at most; and that count as looking there. */
 #define TURN_RATE 7.0
 #define TURN_NEAR 1.0
@@ -35,8 +35,7 @@ bool bot_look(const GameBot *bot, EnfVec3 at, EnfInput *input) {
     return fabs(yaw) < TURN_NEAR && fabs(pitch) < TURN_NEAR;
 }
 
-/* Full speed towards a place, wherever it looks after this tick's turn. */
-static void head_for(const GameBot *bot, EnfVec3 at, EnfInput *input) {
+void bot_head_for(const GameBot *bot, EnfVec3 at, EnfInput *input) {
     const SimPlayer *player = &bot->game->player;
     EnfVec3 feet = player->body.position, way = enf_normalize(enf_v3(at.x - feet.x, 0.0, at.z - feet.z));
     double yaw = ((double)player->yaw + (double)input->yaw) / ENF_INPUT_DEGREE;
@@ -50,6 +49,9 @@ void bot_trip_start(GameBot *bot, EnfVec3 to, uint32_t cell, double near, bool e
     bot->trip.cell = cell;
     bot->trip.near = near;
     bot->trip.enter = enter;
+    bot->trip.least = HUGE_VAL;
+    bot->trip.shun = ENF_NONE;
+    bot->sneak.waited = 0;
     bot->foot.path_count = 0;
 }
 
@@ -93,15 +95,20 @@ static EnfVec3 next_stop(GameBot *bot, bool *last) {
     Game *game = bot->game;
     BotTrip *trip = &bot->trip;
     const EnfCharacter *body = &game->player.body;
-    SimErrand errand = {body->position, trip->to, sim_feet_cell(game, body), trip->cell, ENF_NONE};
-    SimWay way;
+    SimErrand errand = {body->position, trip->to, sim_feet_cell(game, body), trip->cell, trip->shun};
+    SimWay *way = &bot->way;
     uint32_t i = 0;
-    bool leads = sim_route(game, &errand, &way);
-    while (i + 1 < way.count && flat(way.at[i], body->position) < GATE_NEAR) {
+    bool leads = sim_route(game, &errand, way);
+    if (!leads && trip->shun != ENF_NONE) { /* no other way */
+        errand.shun = trip->shun = ENF_NONE;
+        leads = sim_route(game, &errand, way);
+    }
+    while (i + 1 < way->count && flat(way->at[i], body->position) < GATE_NEAR) {
         i++;
     }
-    *last = !leads || i + 1 == way.count;
-    return leads ? way.at[i] : trip->to;
+    way->next = i;
+    *last = !leads || i + 1 == way->count;
+    return leads ? way->at[i] : trip->to;
 }
 
 static bool arrived(const GameBot *bot) {
@@ -152,7 +159,7 @@ static void follow(GameBot *bot, EnfInput *input) {
     uint32_t ahead = trip->at + 5 < foot->path_count ? trip->at + 5 : foot->path_count - 1;
     EnfVec3 eye = enf_character_eye(&bot->game->player.body), at = foot->path[ahead];
     bot_look(bot, enf_v3(at.x, eye.y + (at.y - feet.y), at.z), input);
-    head_for(bot, foot->path[trip->at], input);
+    bot_head_for(bot, foot->path[trip->at], input);
 }
 
 GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
@@ -161,7 +168,7 @@ GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
         return GAME_BOT_DONE;
     }
     *why = "it takes too long";
-    if (++trip->ticks > TRIP_TICKS) {
+    if (++trip->ticks > (bot->sneak.on ? SNEAK_TICKS : TRIP_TICKS)) {
         return GAME_BOT_FAILED;
     }
     if (trip->rest > 0) {
@@ -171,7 +178,7 @@ GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
     if (bot->foot.path_count == 0 && !plan(bot, input, why)) {
         return GAME_BOT_FAILED;
     }
-    if (bot->foot.path_count > 0) {
+    if (bot->foot.path_count > 0 && (!bot->sneak.on || bot_sneak(bot, input) == BOT_GOES)) {
         follow(bot, input);
     }
     return GAME_BOT_GOES_ON;

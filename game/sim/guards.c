@@ -17,9 +17,6 @@ enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 #define RETURN_SPEED 1.4
 #define CATCH_DISTANCE 0.95
 #define LOOK_ROUND_RATE 65.0 /* degrees a second */
-#define NOTICE_RATE 1.0      /* a second, of somebody fully seen nearby */
-#define NOTICE_FADES 0.12
-#define HEARD_MOST 0.6 /* what is only heard is looked for, not chased */
 
 /* ---- start ------------------------------------------------------------------------------------------------------------ */
 
@@ -99,8 +96,8 @@ static void hear(Game *game, SimGuard *guard, EnfVec3 at, double loud) {
         guard->turned = 0;
         return;
     }
-    guard->notice = fmax(guard->notice, fmin(HEARD_MOST, guard->notice + 0.25 * loud));
-    if (guard->notice > 0.35 && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
+    guard->notice = fmax(guard->notice, fmin(SIM_NOTICE_HEARD_MOST, guard->notice + SIM_NOTICE_HEARD * loud));
+    if (guard->notice > SIM_NOTICE_WONDERS && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
         wonder(game, guard);
     }
 }
@@ -131,19 +128,19 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
     if ((sim_tick(game) + number) % LOOK_EVERY != 0 || game->def.peaceful) {
         return;
     }
-    double sight = sim_tick(game) < GRACE_TICKS ? 0.0
-                                                : sim_sight(game, guard, sim_guard_eye(guard), sim_look(guard->yaw_deg, 0.0));
+    SimEye eye = {sim_guard_eye(guard), guard->yaw_deg, guard->body.cell};
+    double sight = sim_tick(game) < GRACE_TICKS ? 0.0 : sim_sight(game, &eye, &game->player.body);
     bool crouched = (game->player.body.flags & ENF_CHARACTER_CROUCHED) != 0;
-    sight *= crouched ? 0.6 : 1.0;
+    sight *= crouched ? SIM_NOTICE_CROUCHED : 1.0;
     guard->sees = sight > 0.01;
-    guard->notice += guard->sees ? NOTICE_RATE * sight * step : -NOTICE_FADES * step;
+    guard->notice += guard->sees ? SIM_NOTICE_RATE * sight * step : -SIM_NOTICE_FADES * step;
     guard->notice = fmin(1.0, fmax(0.0, guard->notice));
     if (guard->sees) {
         guard->seen_at = sim_tick(game);
     }
     if (guard->notice >= 1.0 || (guard->sees && guard->mood == GAME_GUARD_CHASES)) {
         chase(game, guard);
-    } else if (guard->notice > 0.4 && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
+    } else if (guard->notice > SIM_NOTICE_WONDERS && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
         wonder(game, guard);
     }
 }

@@ -5,12 +5,9 @@
 #include <string.h>
 
 enum { QUARTER = 90 * ENF_INPUT_DEGREE };
-/* Metres of a stride, and how far (metres along the ways) it is heard. */
+/* Metres of a stride. */
 #define STRIDE_WALK 0.75
 #define STRIDE_RUN 1.1
-#define HEARD_WALK 7.0
-#define HEARD_RUN 16.0
-#define HEARD_CROUCH 1.5
 
 void sim_player_start(Game *game) {
     SimPlayer *player = &game->player;
@@ -73,7 +70,7 @@ static void footsteps(Game *game, const EnfInput *input, EnfVec3 before, const E
     }
     if ((report->moved & ENF_MOVED_LANDED) && report->fall_speed > 2.0) {
         sim_sound(game, GAME_SOUND_LAND, feet, cell, 0.7);
-        sim_guards_hear(game, feet, HEARD_WALK + report->fall_speed);
+        sim_guards_hear(game, feet, SIM_HEARD_WALK + report->fall_speed);
     }
     if (!(player->body.flags & ENF_CHARACTER_GROUNDED) || (report->moved & ENF_MOVED_RELOCATED)) {
         return;
@@ -84,7 +81,7 @@ static void footsteps(Game *game, const EnfInput *input, EnfVec3 before, const E
         player->stride = 0.0;
         player->steps++;
         sim_sound(game, step_kind(game), feet, cell, crouched ? 0.08 : runs ? 0.7 : 0.35);
-        sim_guards_hear(game, feet, crouched ? HEARD_CROUCH : runs ? HEARD_RUN : HEARD_WALK);
+        sim_guards_hear(game, feet, crouched ? SIM_HEARD_CROUCH : runs ? SIM_HEARD_RUN : SIM_HEARD_WALK);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #define SIGHT_FAR 20.0
 #define SIGHT_FOV 100.0
+#define FELT 0.9 /* metres in the plan */
 enum { SIGHT_WIDTH = 160, SIGHT_HEIGHT = 120 };
 
 /* ---- light ---------------------------------------------------------------------------------------------------------- */
@@ -106,16 +107,31 @@ static bool window_shows(const Game *game, const EnfVisSet *seen, EnfBox3f box) 
     return false;
 }
 
-double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look) {
-    const EnfCharacter *body = &game->player.body;
+/* So near that he is felt, whichever way the guard looks and however dark it is, if there is no wall between. */
+static bool is_felt(const Game *game, EnfVec3 eye, const EnfCharacter *body) {
+    EnfVec3 way = enf_sub(body->position, eye);
+    const EnfCapsule thread = {0.01, 0.02};
+    EnfSweepHit met;
+    if (way.x * way.x + way.z * way.z > FELT * FELT || way.y > 0.0 || way.y < -2.5) {
+        return false;
+    }
+    EnfVec3 waist = enf_sub(enf_add(body->position, enf_v3(0.0, 0.5 * body->height, 0.0)), eye);
+    return !enf_collide_sweep(game->collider, &thread, eye, waist, &met) || met.t > 0.95;
+}
+
+double sim_sight(Game *game, const SimEye *of, const EnfCharacter *body) {
+    if (is_felt(game, of->at, body)) {
+        return 1.0;
+    }
+    EnfVec3 eye = of->at, look = sim_look(of->yaw_deg, 0.0);
     EnfVec3 feet = body->position, way = enf_sub(enf_add(feet, enf_v3(0.0, 0.6 * body->height, 0.0)), eye);
     double away = enf_length(way);
     if (away > SIGHT_FAR || enf_dot(way, look) < 0.45 * away) {
         return 0.0;
     }
     EnfView view = enf_view_default();
-    view.camera = enf_camera(eye, enf_turn(guard->yaw_deg, 0.0, 0.0), SIGHT_FOV, SIGHT_WIDTH, SIGHT_HEIGHT);
-    view.cell = guard->body.cell;
+    view.camera = enf_camera(eye, enf_turn(of->yaw_deg, 0.0, 0.0), SIGHT_FOV, SIGHT_WIDTH, SIGHT_HEIGHT);
+    view.cell = of->cell;
     const EnfVisSet *seen = enf_vis_run(game->eyes, &game->portals, &view);
     double r = body->def.radius;
     EnfBox3 box = {enf_sub(feet, enf_v3(r, 0.0, r)), enf_add(feet, enf_v3(r, body->height, r))};

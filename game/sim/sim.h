@@ -17,6 +17,19 @@ enum {
 /** Metres: how far a hand reaches. */
 #define SIM_REACH 2.0
 
+/** Metres along the ways at which a step is heard. */
+#define SIM_HEARD_WALK 7.0
+#define SIM_HEARD_RUN 16.0
+#define SIM_HEARD_CROUCH 1.5
+/** What a guard notices, of 1 that makes it chase: a second of somebody fully seen nearby adds the rate; a step heard nearby adds
+ *  HEARD, up to HEARD_MOST; from WONDERS on it stops and looks; unseen, it fades by so much a second. */
+#define SIM_NOTICE_RATE 1.0
+#define SIM_NOTICE_CROUCHED 0.6 /* of it, who crouches */
+#define SIM_NOTICE_HEARD 0.25
+#define SIM_NOTICE_HEARD_MOST 0.6
+#define SIM_NOTICE_WONDERS 0.4
+#define SIM_NOTICE_FADES 0.12
+
 /* ---- the state --------------------------------------------------------------------------------------------------- */
 
 typedef struct SimPlayer {
@@ -265,8 +278,15 @@ void sim_guard_push(Game *game, SimGuard *guard);
 void sim_guard_follow(Game *game, SimGuard *guard);
 EnfVec3 sim_guard_eye(const SimGuard *guard);
 
-/** How much of the player a guard's eye sees, 0..1: 0 without a window onto him, a free line, or light (sight.c). */
-double sim_sight(Game *game, const SimGuard *guard, EnfVec3 eye, EnfVec3 look);
+/** An eye: where it is and how it is turned. */
+typedef struct SimEye {
+    EnfVec3 at;
+    double yaw_deg;
+    uint32_t cell;
+} SimEye;
+
+/** How much of a body an eye sees, 0..1: 0 without a window onto it, a free line, or light (sight.c). */
+double sim_sight(Game *game, const SimEye *eye, const EnfCharacter *body);
 /** The light at a point of a cell, 0..1, against what is usual in this map. */
 double sim_light(const Game *game, uint32_t cell, EnfVec3 at);
 double sim_usual_light(const Game *game);

@@ -8,11 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char SCRIPT[] = "enfbot 1\r\n"
-                             "# all there is\n"
-                             "goto cell east\n  goto point 1.5 0 -2\ngoto entity vase\ngoto exit\ntake vase\npress door\n"
-                             "look at 1 2 3\nlook by 90 -10\nuse\ndrop\njump\ncrouch on\ncrouch off\nrun on\nwait 0.5\n"
-                             "walk 1 -0.5 2\nexpect playing 3\n\nexpect won 1";
+static const char SCRIPT[] =
+    "enfbot 1\r\n"
+    "# all there is\n"
+    "goto cell east\n  goto point 1.5 0 -2\ngoto entity vase\ngoto exit\ntake vase\npress door\n"
+    "look at 1 2 3\nlook by 90 -10\nuse\ndrop\njump\ncrouch on\ncrouch off\nrun on\nsneak on\nwait 0.5\n"
+    "walk 1 -0.5 2\nexpect playing 3\n\nexpect won 1";
 
 typedef struct Stage {
     EnfNight night;

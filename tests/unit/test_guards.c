@@ -205,12 +205,26 @@ static void test_a_door_turns_back(void **state) {
     close_play(&play);
 }
 
+/* What carelessness loses, care wins: past a guard who walks up and down before the vase, in a lit room. */
+static void test_care_wins(void **state) {
+    (void)state;
+    Play play;
+    open_play(&play, (EnfNightDef){.guard = true, .lamps = true}, false);
+    run(&play, "enfbot 1\nwait 6\ngoto point 11 0 4\nexpect lost 40\n");
+    close_play(&play);
+    open_play(&play, (EnfNightDef){.guard = true, .lamps = true}, false);
+    run(&play, "enfbot 1\nwait 6\nsneak on\ntake vase\ngoto exit\nexpect won 1\n");
+    assert_int_equal(play.heard[GAME_SOUND_GUARD_SEES], 0);
+    close_play(&play);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_a_chase_goes_through_doors_round_things_and_up),
     cmocka_unit_test(test_who_is_lost_is_looked_for_and_let_go),
     cmocka_unit_test(test_where_no_way_leads_it_gives_up),
     cmocka_unit_test(test_an_elevator_turns_back),
     cmocka_unit_test(test_a_door_turns_back),
+    cmocka_unit_test(test_care_wins),
 };
 
 ENF_TEST_MAIN(tests)
