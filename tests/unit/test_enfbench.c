@@ -153,6 +153,27 @@ static void test_a_case_is_measured_once(void **state) {
     free(text);
 }
 
+/* Scene 1 of the thesis, which hides nothing, goes on to as many movers as the others in each of its tests. */
+static void test_scene_1_goes_on(void **state) {
+    (void)state;
+    char *text = NULL;
+    char *rest = NULL;
+    uint32_t many = 0;
+    assert_int_equal(run("B1 --set rooms=9 --set movers=40 --set frames=12 --set check=5 --set polygons=12 --set speed=1 "
+                         "--set policy=flat,reach",
+                         &text),
+                     0);
+    (void)strtok_r(text, "\n", &rest);
+    for (char *line = strtok_r(NULL, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
+        char *columns[COLUMNS] = {NULL};
+        assert_int_equal(split(line, columns), COLUMNS);
+        assert_string_equal(columns[LOST], "0");
+        many += strstr(columns[1], ", 100000 movers") != NULL && strstr(columns[3], "visible=40 ") != NULL ? 1U : 0U;
+    }
+    assert_int_equal(many, 4); /* polygons and speed, flat and reach */
+    free(text);
+}
+
 static void test_wrong_knobs_are_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {"movers --set motion=teleport", "movers --set eye=shut",       "movers --set rooms=0",
@@ -172,6 +193,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_hierarchical_z_loses_no_pixel),
     cmocka_unit_test(test_updates_from_both_ends_are_measured),
     cmocka_unit_test(test_a_case_is_measured_once),
+    cmocka_unit_test(test_scene_1_goes_on),
     cmocka_unit_test(test_wrong_knobs_are_refused),
 };
 
