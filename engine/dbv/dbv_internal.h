@@ -71,6 +71,7 @@ typedef struct EnfDbvPlaces {
     uint32_t *below;     /**< a kd node: entries there and beneath */
     uint32_t *owners;    /**< of a kd node (from nodes_first): the place of its cell */
     EnfBox3 *boxes;      /**< of nodes and cells, world */
+    EnfBox3f *limits;    /**< of the same: see enf_dbv_touches */
     EnfDbvFit *fits;     /**< of nodes and cells */
     uint32_t *hot_frame; /**< a node or cell that is or holds a seen cell: the frame that saw it */
 } EnfDbvPlaces;
@@ -100,6 +101,14 @@ typedef struct EnfDbvExposure {
     EnfBox3f box; /**< its own, at this tick */
 } EnfDbvExposure;
 
+/** Seen cells that are kept in a row, to be asked without the tree. */
+enum { ENF_DBV_SEEN_LISTED = 16 };
+
+typedef struct EnfDbvSeen {
+    EnfBox3 box;
+    EnfBox3f limits;
+} EnfDbvSeen;
+
 /** A growing list of numbers that keeps its memory. */
 typedef struct EnfDbvList {
     uint32_t *items;
@@ -119,9 +128,12 @@ struct EnfDbvIndex {
     EnfDbvExposure *exposures;
     uint32_t exposure_count, exposure_capacity;
     EnfDbvList due, drawn, candidates;
-    double room;            /**< metres: the mean of the longest sides of cells */
-    uint32_t frame;         /**< stamps; 0 never */
-    uint32_t hot_frame;     /**< the frame whose seen cells count as seen: the last that saw any */
+    EnfDbvSeen seen[ENF_DBV_SEEN_LISTED]; /**< the first of the cells seen in hot_frame */
+    uint32_t seen_count;                  /**< of these cells: all */
+    double approach;                      /**< the share of its way to the nearest seen cell that a volume may take */
+    double room;                          /**< metres: the mean of the longest sides of cells */
+    uint32_t frame;                       /**< stamps; 0 never */
+    uint32_t hot_frame;                   /**< the frame whose seen cells count as seen: the last that saw any */
     bool first;             /**< the world's objects have not been taken in yet, or memory ran out while a volume was hung */
     EnfBox3f *portal_boxes; /**< where the map's portals allow REACH, and the policy asks for it; else NULL */
     bool failed;            /**< memory ran out in this frame: something may be missing */
@@ -168,8 +180,14 @@ static inline uint32_t enf_dbv_owner(const EnfDbvPlaces *places, uint32_t place)
                                          : place - places->walks_first + places->cells_first;
 }
 size_t enf_dbv_places_bytes(const EnfDbvPlaces *places);
-/** As enf_world_touches has it: an overlap of more than a grid step. */
-bool enf_dbv_box_touches(const EnfBox3 *place, const EnfBox3 *box);
+/** The box that enf_dbv_touches takes for a place. */
+EnfBox3f enf_dbv_limits(const EnfBox3 *place);
+/** As enf_world_touches has it: an overlap of more than a grid step. `limits` is the place's box, a grid step smaller, rounded
+ *  outward: a float is above a number just if it is above the next float below that number. Without a branch. */
+static inline bool enf_dbv_touches(const EnfBox3f *limits, const EnfBox3f *box) {
+    return ((box->max.x > limits->min.x) & (box->min.x < limits->max.x) & (box->max.y > limits->min.y) &
+            (box->min.y < limits->max.y) & (box->max.z > limits->min.z) & (box->min.z < limits->max.z)) != 0;
+}
 void enf_dbv_unhang(EnfDbvIndex *index, uint32_t object);
 /** Hangs an object's volume in place of its old one: found from the old place upwards, or from the root (EnfDbvUpdate). Without
  *  memory, the index takes all objects in again in the next frame. */
@@ -232,6 +250,8 @@ void enf_dbv_grow(EnfDbvPlaces *places, uint32_t place, EnfBox3f box);
 void enf_dbv_fit(EnfDbvIndex *index, uint32_t place);
 
 /* seen.c */
+/** A cell is seen in this frame. */
+void enf_dbv_note_seen(EnfDbvIndex *index, uint32_t cell);
 /** Was a cell seen in the last frame? */
 bool enf_dbv_cell_is_seen(const EnfDbvIndex *index, uint32_t cell);
 /** The cells that a box touches; ENF_NONE if they are more than a volume hangs on. */
@@ -242,10 +262,9 @@ bool enf_dbv_in_few_cells(EnfDbvIndex *index, EnfBox3f box);
 double enf_dbv_distance_to_seen(EnfDbvIndex *index, EnfBox3f box);
 
 /* reach.c */
-/** The cells that a confined object touches until it has gone `limit` metres, and how far each is at least. */
+/** The cells that a confined object touches until it has gone `limit` metres. */
 typedef struct EnfDbvReach {
     uint32_t cells[ENF_DBV_LINKS], count;
-    double distances[ENF_DBV_LINKS];
     double limit; /**< HUGE_VAL: it is shut in */
 } EnfDbvReach;
 /** Can a map's portals be walked back wherever they are walked through? Else nothing is reached but by flight. */
@@ -272,6 +291,8 @@ bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick);
 /* period.c */
 /** Why a volume is made anew. */
 typedef enum EnfDbvCause { ENF_DBV_NEW, ENF_DBV_UNSEEN, ENF_DBV_SEEN, ENF_DBV_DRAWN } EnfDbvCause;
+/** Sets index->approach by how many objects there are. */
+void enf_dbv_choose_approach(EnfDbvIndex *index);
 /** Does this policy choose volumes off the seen cells? */
 bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index);
 /** Ticks that the volume of a drawn object is made for, under such a policy. */

@@ -97,6 +97,7 @@ EnfResult enf_dbv_begin(EnfDbvIndex *index, EnfError *error) {
     index->exposure_count = 0;
     index->drawn.count = 0;
     index->failed = false;
+    enf_dbv_choose_approach(index);
     bool ok = renew_expired(index);
     ok = take_in_changes(index) && ok && !index->failed;
     index->frame++;
@@ -132,22 +133,22 @@ static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
     return &index->exposures[volume->exposure];
 }
 
-static bool shows(const EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid, EnfBox3f box) {
-    return enf_world_touches(index->map, cell, box) && enf_pyramid_box(pyramid, enf_world_box_in_cell(index->map, cell, box));
-}
-
 /* A window as the steps of one enf_dbv_see use it. */
 typedef struct Look {
     uint32_t cell;
-    EnfBox3 box;               /* the cell's, world */
+    EnfBox3f limits;           /* the cell's, world */
     const EnfPyramid *pyramid; /* relative to the cell */
     const EnfSimd *simd;
     EnfSimdPlanes planes; /* of world boxes */
 } Look;
 
-static bool is_near(const Look *look, const EnfBox3f *fit) {
-    EnfBox3 box = enf_box3_from_f(*fit);
-    return enf_dbv_box_touches(&look->box, &box);
+static inline bool is_near(const Look *look, const EnfBox3f *box) {
+    return enf_dbv_touches(&look->limits, box);
+}
+
+/* Is an object with this box seen? By its touching the cell and passing the pyramid. */
+static bool shows(const EnfDbvIndex *index, const Look *look, const EnfBox3f *box) {
+    return is_near(look, box) && enf_pyramid_box(look->pyramid, enf_world_box_in_cell(index->map, look->cell, *box));
 }
 
 /* Objects of one block whose volumes the window shows; how many. */
@@ -258,25 +259,22 @@ static void expose_candidates(EnfDbvIndex *index, const Look *look) {
     for (uint32_t i = 0; i < index->candidates.count; i++) {
         prefetch_candidate(index, i);
         EnfDbvExposure *exposure = expose(index, index->candidates.items[i]);
-        if (exposure != NULL && !exposure->drawn && shows(index, look->cell, look->pyramid, exposure->box)) {
+        if (exposure != NULL && !exposure->drawn && shows(index, look, &exposure->box)) {
             exposure->drawn = true;
         }
     }
 }
 
 void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
-    EnfDbvPlaces *places = &index->places;
+    const EnfDbvPlaces *places = &index->places;
     Look look;
     look.cell = cell;
-    look.box = places->boxes[places->cells_first + cell];
+    look.limits = places->limits[places->cells_first + cell];
     look.pyramid = pyramid;
     look.simd = enf_simd();
     enf_dbv_planes(index, cell, pyramid, &look.planes);
-    index->hot_frame = index->frame;
+    enf_dbv_note_seen(index, cell);
     index->candidates.count = 0;
-    for (uint32_t place = places->cells_first + cell; place != ENF_NONE; place = places->parents[place]) {
-        places->hot_frame[place] = index->frame;
-    }
     (void)test_place(index, places->walks_first + cell, &look);
     test_all(index, &look);
     expose_candidates(index, &look);

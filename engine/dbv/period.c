@@ -6,20 +6,28 @@
 
 /* A drawn object will be drawn again: its volume is renewed a few times a second, and is hardly looser than itself. */
 #define DRAWN_PERIOD ((uint32_t)ENF_DBV_DRAWN_PERIOD)
+/* What stands in a seen cell and is not looked at: behind the eye, behind a corner. Longer each time it stays unseen, up to this;
+ * volumes in which the eye is interested are cut as soon as they are looked at. */
+#define BESIDE_PERIODS 48U
 /* How much of the way to the nearest seen cell a volume may take. All of it would need the fewest renewals; but then, when a door
  * comes into sight, the volumes of half the world reach into the room behind it, and that frame wakes them all (PITFALLS 23).
- * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). */
-#define APPROACH 0.3
+ * At a share k of the way, a room that is d away from what was seen is met by volumes from no farther than k d / (1 - k). How many
+ * that are goes with the crowd: where cells hold many, the share is smaller. Measured with 1, 10, 100 objects a cell: 0.4, 0.4 and
+ * 0.3 are best. */
+#define APPROACH_MOST 0.4
+#define APPROACH_LEAST 0.2
+#define APPROACH_DOUBLING 0.03
+#define APPROACH_CROWD 8U
 /* What is shortened ends in that many ticks and a part of so many more, each object at its own. */
 #define SHORT_PERIODS 32U
 /* The first volumes, made before anything was seen, end over so many ticks. */
 #define BLIND_PERIODS 48U
 
 /* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
- * does not expire in one (PITFALLS 23). Takes off up to a quarter. */
+ * does not expire in one (PITFALLS 23). Takes off up to an eighth. */
 static uint32_t spread(uint32_t period, uint32_t object) {
     uint32_t hash = object * UINT32_C(2654435761);
-    return period - (uint32_t)(((uint64_t)period * (hash >> 16)) >> 18);
+    return period - (uint32_t)(((uint64_t)period * (hash >> 16)) >> 19);
 }
 
 /* A crowd that was made in one tick and whose periods are equal would end in one for ever: the first period is any part of it. */
@@ -44,25 +52,43 @@ static uint32_t blind(const EnfDbvIndex *index, uint32_t object) {
     return clamp_period(index, (double)(DRAWN_PERIOD + hash % BLIND_PERIODS));
 }
 
+void enf_dbv_choose_approach(EnfDbvIndex *index) {
+    double share = APPROACH_MOST;
+    uint32_t few = (index->map->cells_count + 1U) * APPROACH_CROWD;
+    for (uint32_t crowd = index->alive_count / few; crowd > 1; crowd /= 2) {
+        share -= APPROACH_DOUBLING;
+    }
+    index->approach = share > APPROACH_LEAST ? share : APPROACH_LEAST;
+}
+
+/* Where an object is that gets a new volume. */
+typedef struct Here {
+    EnfBox3f box;
+    double gap; /* metres to the nearest seen cell; below 0: it touches one, or was not asked for */
+} Here;
+
 /* May a volume be this near to what is seen, made from an object that is `gap` away? */
 static bool keeps_off(EnfDbvIndex *index, EnfBox3f box, double gap) {
-    return enf_dbv_distance_to_seen(index, box) >= (1.0 - APPROACH) * gap;
+    return enf_dbv_distance_to_seen(index, box) >= (1.0 - index->approach) * gap;
+}
+
+/* In a seen cell there is nothing to keep off from. */
+static uint32_t beside(const EnfDbvIndex *index, uint32_t last, EnfDbvCause cause) {
+    double ticks = cause == ENF_DBV_UNSEEN ? 2.0 * (double)last : DRAWN_PERIOD;
+    ticks = ticks > BESIDE_PERIODS ? BESIDE_PERIODS : ticks < DRAWN_PERIOD ? DRAWN_PERIOD : ticks;
+    return clamp_period(index, ticks);
 }
 
 /* The longest period whose volume keeps off the seen cells: for ever if the whole path lies in a few cells, none of them seen. Else
  * doubled and bisected over the motion's own bounds. */
-static uint32_t maximal(EnfDbvIndex *index, uint32_t object, EnfBox3f now) {
-    double gap = enf_dbv_distance_to_seen(index, now);
-    if (gap < 0.0) {
-        return DRAWN_PERIOD;
-    }
+static uint32_t maximal(EnfDbvIndex *index, uint32_t object, double gap) {
     EnfBox3f whole = bound_for(index, object, index->def.max_period_ticks);
     double whole_gap = enf_dbv_distance_to_seen(index, whole);
-    if (whole_gap >= (1.0 - APPROACH) * gap || (whole_gap >= 0.0 && enf_dbv_in_few_cells(index, whole))) {
+    if (whole_gap >= (1.0 - index->approach) * gap || (whole_gap >= 0.0 && enf_dbv_in_few_cells(index, whole))) {
         return index->def.max_period_ticks;
     }
     double speed = enf_world_max_speed(index->world, object);
-    uint32_t good = speed < HUGE_VAL ? clamp_period(index, APPROACH * gap / speed * ENF_TICK_RATE) : 1U;
+    uint32_t good = speed < HUGE_VAL ? clamp_period(index, index->approach * gap / speed * ENF_TICK_RATE) : 1U;
     if (good > 1 && !keeps_off(index, bound_for(index, object, good), gap)) {
         good = 1; /* the box of a turned object grows by corners: the speed is of its points */
     }
@@ -89,13 +115,9 @@ static uint32_t maximal(EnfDbvIndex *index, uint32_t object, EnfBox3f now) {
 }
 
 /* Free objects move by their speed alone, so that their period follows from the distance in one step. */
-static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object, EnfBox3f now) {
-    double gap = enf_dbv_distance_to_seen(index, now);
+static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object, double gap) {
     double speed = enf_world_max_speed(index->world, object);
-    if (gap < 0.0) {
-        return DRAWN_PERIOD;
-    }
-    return speed > 0.0 ? clamp_period(index, APPROACH * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
+    return speed > 0.0 ? clamp_period(index, index->approach * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
 }
 
 static uint32_t adaptive(const EnfDbvIndex *index, uint32_t last, EnfDbvCause cause) {
@@ -133,7 +155,7 @@ static uint32_t optimal(EnfDbvIndex *index, EnfDbvVolume *volume, EnfDbvCause ca
     return last + (volume->bad_period - last) / 2;
 }
 
-static uint32_t choose(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
+static uint32_t choose(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause, Here *here) {
     EnfDbvVolume *volume = &index->volumes[object];
     switch (index->def.policy) {
     case ENF_DBV_CONSTANT:
@@ -152,8 +174,12 @@ static uint32_t choose(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     if (index->hot_frame == 0) {
         return blind(index, object);
     }
-    EnfBox3f now = bound_for(index, object, 0);
-    return enf_world_is_free(index->world, object) ? maximal_free(index, object, now) : maximal(index, object, now);
+    here->box = bound_for(index, object, 0);
+    here->gap = enf_dbv_distance_to_seen(index, here->box);
+    if (here->gap < 0.0) {
+        return beside(index, volume->period, cause);
+    }
+    return enf_world_is_free(index->world, object) ? maximal_free(index, object, here->gap) : maximal(index, object, here->gap);
 }
 
 bool enf_dbv_keeps_off_seen(const EnfDbvIndex *index) {
@@ -170,11 +196,10 @@ static void hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
 
 /* A volume that hangs only where the object can walk to, if it lasts longer than `period`. Few rooms hold it, so that it is not
  * worth asking for what flies farther than a room is long. */
-static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period) {
+static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period, const Here *here) {
     EnfDbvReach reach;
-    EnfBox3f now = bound_for(index, object, 0);
     double speed = enf_world_max_speed(index->world, object);
-    if (!enf_dbv_reach(index, now, &reach)) {
+    if (!enf_dbv_reach(index, here->box, &reach)) {
         return false;
     }
     bool ever = !(speed > 0.0) || reach.limit == HUGE_VAL;
@@ -190,12 +215,13 @@ static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period) 
     volume->expiry_tick = enf_world_tick(index->world) + (int64_t)longer;
     enf_dbv_unhang(index, object);
     index->counters.reinserted++;
-    enf_dbv_hang_reach(index, object, box, now, &reach);
+    enf_dbv_hang_reach(index, object, box, here->box, &reach);
     return true;
 }
 
 void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
-    uint32_t period = choose(index, object, cause);
+    Here here = {{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}}, -1.0};
+    uint32_t period = choose(index, object, cause, &here);
     if (!enf_dbv_keeps_off_seen(index) && cause == ENF_DBV_NEW) {
         period = first_share(period, object);
     } else if (index->def.policy != ENF_DBV_CONSTANT) {
@@ -203,8 +229,8 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     }
     enf_dbv_wheel_remove(index, object);
     double way = enf_world_max_speed(index->world, object) * (double)period / ENF_TICK_RATE;
-    bool walks = index->portal_boxes != NULL && index->hot_frame != 0 && cause != ENF_DBV_DRAWN && way < index->room;
-    if (walks && enf_world_is_confined(index->world, object) && hang_reaching(index, object, period)) {
+    bool walks = index->portal_boxes != NULL && here.gap >= 0.0 && way < index->room;
+    if (walks && enf_world_is_confined(index->world, object) && hang_reaching(index, object, period, &here)) {
         enf_dbv_wheel_add(index, object);
         return;
     }

@@ -19,10 +19,10 @@
 
 /* ---- boxes of places -------------------------------------------------------------------------------------------- */
 
-bool enf_dbv_box_touches(const EnfBox3 *place, const EnfBox3 *box) {
-    const double step = ENF_GRID_STEP;
-    return box->max.x > place->min.x + step && box->min.x < place->max.x - step && box->max.y > place->min.y + step &&
-           box->min.y < place->max.y - step && box->max.z > place->min.z + step && box->min.z < place->max.z - step;
+EnfBox3f enf_dbv_limits(const EnfBox3 *place) {
+    EnfVec3 step = enf_v3(ENF_GRID_STEP, ENF_GRID_STEP, ENF_GRID_STEP);
+    EnfBox3 inner = {enf_add(place->min, step), enf_sub(place->max, step)};
+    return enf_box3f_outward(inner);
 }
 
 /* fmax is a call, for the sake of what is not a number. */
@@ -50,6 +50,9 @@ static void make_boxes(EnfDbvPlaces *places) {
     }
     for (uint32_t c = 0; c < map->cells_count; c++) {
         places->boxes[places->cells_first + c] = cell_box(map, c);
+    }
+    for (uint32_t place = 0; place < places->nodes_first; place++) {
+        places->limits[place] = enf_dbv_limits(&places->boxes[place]);
     }
 }
 
@@ -96,9 +99,10 @@ EnfResult enf_dbv_places_create(EnfDbvPlaces *places, const EnfMap *map, const E
     places->owners = enf_alloc(allocator, (size_t)map->kd_nodes_count + 1, sizeof *places->owners);
     places->hot_frame = enf_alloc(allocator, outer, sizeof *places->hot_frame);
     places->boxes = enf_alloc(allocator, outer, sizeof *places->boxes);
+    places->limits = enf_alloc(allocator, outer, sizeof *places->limits);
     places->fits = enf_alloc(allocator, outer, sizeof *places->fits);
     bool ok = places->boxes && places->parents && places->heads && places->below && places->owners && places->hot_frame;
-    if (!ok || !places->fits) {
+    if (!ok || !places->limits || !places->fits) {
         enf_dbv_places_destroy(places, allocator);
         return enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "%u places of volumes", places->count);
     }
@@ -128,11 +132,12 @@ void enf_dbv_places_destroy(EnfDbvPlaces *places, const EnfAllocator *allocator)
     enf_free(allocator, places->owners, (size_t)places->walks_first - places->nodes_first + 1, sizeof *places->owners);
     enf_free(allocator, places->hot_frame, outer, sizeof *places->hot_frame);
     enf_free(allocator, places->boxes, outer, sizeof *places->boxes);
+    enf_free(allocator, places->limits, outer, sizeof *places->limits);
     enf_free(allocator, places->fits, outer, sizeof *places->fits);
 }
 
 size_t enf_dbv_places_bytes(const EnfDbvPlaces *places) {
-    size_t outer = sizeof *places->hot_frame + sizeof *places->boxes + sizeof *places->fits;
+    size_t outer = sizeof *places->hot_frame + sizeof *places->boxes + sizeof *places->limits + sizeof *places->fits;
     size_t kd = (size_t)places->walks_first - places->nodes_first + 1;
     return ((size_t)places->count + 1) * 3 * sizeof(uint32_t) + kd * sizeof *places->owners +
            ((size_t)places->nodes_first + 1) * outer;
@@ -358,10 +363,10 @@ void enf_dbv_hang(EnfDbvIndex *index, uint32_t object, EnfBox3f volume) {
     uint32_t old = linked_place(index, object);
     uint32_t place = ENF_NONE;
     uint32_t last = map->cells_count - 1; /* what lies in no room is under no node of the tree: its cell is asked apart */
-    if (map->cell_nodes_count > 0 && enf_dbv_box_touches(&places->boxes[0], &box)) {
+    if (map->cell_nodes_count > 0 && enf_dbv_touches(&places->limits[0], &volume)) {
         place = find_place(index, &box, index->def.update == ENF_DBV_LCA ? old : ENF_NONE);
     } else if (map->cells_count > 0 && (map->cells[last].flags & ENF_CELL_OUTSIDE) != 0 &&
-               enf_dbv_box_touches(&places->boxes[places->cells_first + last], &box)) {
+               enf_dbv_touches(&places->limits[places->cells_first + last], &volume)) {
         place = places->cells_first + last;
     }
     if (place != ENF_NONE && place == old && index->volumes[object].link_count == 1) {

@@ -37,11 +37,12 @@ static double apart(double low, double high, double other_low, double other_high
     return d > 0.0 ? d : 0.0;
 }
 
+/* Squared. */
 static double distance(const EnfBox3 *a, const EnfBox3f *b) {
     double x = apart(a->min.x, a->max.x, (double)b->min.x, (double)b->max.x);
     double y = apart(a->min.y, a->max.y, (double)b->min.y, (double)b->max.y);
     double z = apart(a->min.z, a->max.z, (double)b->min.z, (double)b->max.z);
-    return sqrt(x * x + y * y + z * z);
+    return x * x + y * y + z * z;
 }
 
 static bool is_found(const EnfDbvReach *reach, uint32_t cell) {
@@ -53,7 +54,7 @@ static bool is_found(const EnfDbvReach *reach, uint32_t cell) {
     return false;
 }
 
-/* The portals out of the cells found, each with its distance. */
+/* The portals out of the cells found, each with its squared distance. */
 typedef struct Pending {
     uint32_t portals[PENDING];
     double distances[PENDING];
@@ -73,7 +74,6 @@ static bool add_cell(const EnfDbvIndex *index, EnfDbvReach *reach, const EnfBox3
         pending->portals[pending->count] = p;
         pending->distances[pending->count++] = d > least ? d : least;
     }
-    reach->distances[reach->count] = least;
     reach->cells[reach->count++] = number;
     return true;
 }
@@ -133,7 +133,7 @@ bool enf_dbv_reach(EnfDbvIndex *index, EnfBox3f now, EnfDbvReach *reach) {
         bool ends = portal->transform != ENF_NONE || reach->count == ENF_DBV_LINKS ||
                     enf_dbv_cell_is_seen(index, portal->target) || (map->cells[portal->target].flags & ENF_CELL_OUTSIDE) != 0;
         if (ends || !add_cell(index, reach, &box, portal->target, d, &pending)) {
-            reach->limit = d;
+            reach->limit = sqrt(d);
             return d > 0.0;
         }
     }

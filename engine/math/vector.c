@@ -84,15 +84,12 @@ bool enf_box3_overlaps(EnfBox3 a, EnfBox3 b) {
 /* ---- rounding outward ------------------------------------------------------------------------------------------- */
 
 /* What is not a number goes to the far end: a box of it contains everything, and nothing is hidden. */
-float enf_round_down(double value) {
-    if (!(value >= (double)-FLT_MAX)) {
-        return -FLT_MAX;
-    }
-    if (value >= (double)FLT_MAX) {
-        return FLT_MAX;
-    }
-    /* The next float below, where rounding went up: as nextafterf(nearest, -FLT_MAX), but without a branch that is taken half of
-     * the time. What is below 0 rounds to -0 at most, so that +0 has never to be lowered. */
+/* Without a branch: volumes are rounded by the thousand. What is not a number counts as the lowest. */
+static inline float round_down(double value) {
+    value = value > (double)-FLT_MAX ? value : (double)-FLT_MAX;
+    value = value < (double)FLT_MAX ? value : (double)FLT_MAX;
+    /* The next float below, where rounding went up: as nextafterf(nearest, -FLT_MAX). What is below 0 rounds to -0 at most, so that
+     * +0 has never to be lowered. */
     float nearest = (float)value;
     uint32_t bits = 0;
     memcpy(&bits, &nearest, sizeof bits);
@@ -102,13 +99,17 @@ float enf_round_down(double value) {
     return nearest;
 }
 
+float enf_round_down(double value) {
+    return round_down(value);
+}
+
 float enf_round_up(double value) {
-    return -enf_round_down(-value);
+    return -round_down(-value);
 }
 
 EnfBox3f enf_box3f_outward(EnfBox3 box) {
-    EnfBox3f out = {{enf_round_down(box.min.x), enf_round_down(box.min.y), enf_round_down(box.min.z)},
-                    {enf_round_up(box.max.x), enf_round_up(box.max.y), enf_round_up(box.max.z)}};
+    EnfBox3f out = {{round_down(box.min.x), round_down(box.min.y), round_down(box.min.z)},
+                    {-round_down(-box.max.x), -round_down(-box.max.y), -round_down(-box.max.z)}};
     return out;
 }
 
