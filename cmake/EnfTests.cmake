@@ -22,6 +22,12 @@ target_include_directories(enf_harness SYSTEM PUBLIC ${CMOCKA_INCLUDE_DIR})
 target_compile_definitions(enf_harness PUBLIC ENF_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                               ENF_SHARED_DATA="${ENF_SHARED_DATA}")
 target_link_libraries(enf_harness PUBLIC ${CMOCKA_LIBRARY})
+# Instrumented or emulated: what does not depend on that is left to the others.
+if(ENF_SANITIZE OR CMAKE_CROSSCOMPILING)
+  target_compile_definitions(enf_harness PUBLIC ENF_TEST_SLOW=1)
+else()
+  target_compile_definitions(enf_harness PUBLIC ENF_TEST_SLOW=0)
+endif()
 
 # Seconds after which CTest stops a test. A suite takes some ten seconds on an idle machine, many times that where it is
 # instrumented or emulated.
