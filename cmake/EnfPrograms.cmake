@@ -54,9 +54,9 @@ if(scene_sources)
   target_link_libraries(enf_scenes PUBLIC enf_core)
 endif()
 
-# What recordings are of, as enfreplay and the tests of recordings step it: over enf_core alone, so on every machine.
+# What recordings are of, as enfreplay and the tests of recordings step it, and random input for it: over enf_core alone, so on every machine.
 if(TARGET enf_game)
-  add_library(enf_sim STATIC ${PROJECT_SOURCE_DIR}/tools/enfreplay/sim.c)
+  add_library(enf_sim STATIC ${PROJECT_SOURCE_DIR}/tools/enfreplay/sim.c ${PROJECT_SOURCE_DIR}/tools/enfreplay/mash.c)
   enf_flags(enf_sim)
   target_include_directories(enf_sim PRIVATE ${PROJECT_SOURCE_DIR}/tools)
   target_link_libraries(enf_sim PUBLIC enf_game)

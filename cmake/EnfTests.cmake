@@ -89,6 +89,19 @@ foreach(line ${suite_lines})
   enf_suite(${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${CMAKE_MATCH_3})
 endforeach()
 
+# The maps of the recordings are compiled once, before the suites that walk them.
+if(TARGET enfc)
+  add_test(NAME replay_maps COMMAND bash ${PROJECT_SOURCE_DIR}/tests/replay/maps.sh $<TARGET_FILE:enfc> ${CMAKE_BINARY_DIR}/replay_maps)
+  set_tests_properties(replay_maps PROPERTIES LABELS "fast;long;replay" FIXTURES_SETUP replay_maps TIMEOUT ${ENF_TIMEOUT_FAST})
+  foreach(name replay mash replay_drawn)
+    foreach(test ${name} ${name}.long)
+      if(TEST ${test})
+        set_tests_properties(${test} PROPERTIES FIXTURES_REQUIRED replay_maps)
+      endif()
+    endforeach()
+  endforeach()
+endif()
+
 # enf_core as somebody else uses it: installed, found, linked, and given a level.
 if(TARGET enf_core AND TARGET enfc AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE)
   add_test(NAME install COMMAND ${CMAKE_COMMAND} -DBUILD=${CMAKE_BINARY_DIR} -DWORK=${CMAKE_BINARY_DIR}/install_test
