@@ -135,6 +135,7 @@ typedef struct App {
     double behind_ms; /**< time that the simulation has not yet seen */
     double over_ms;   /**< since the game was won or lost */
     uint64_t frames, ticks;
+    uint64_t over_tick; /**< of the game: the last in which it was neither won nor lost */
     uint32_t shots;
     int told;                /**< --tell: the mode and menu that were told last */
     uint32_t warm;           /**< frames of play since something was opened or changed */

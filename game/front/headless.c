@@ -56,19 +56,18 @@ static int tell_replay(const App *app, uint64_t ticks) {
 /* A recording to its end, or --frames ticks of it; or as many ticks of a game that nobody plays. */
 static int run_game(App *app) {
     EnfError error = {0};
-    static const EnfInput nothing;
     uint64_t ticks = 0, most = app->options.frames ? app->options.frames : app->play.replays ? UINT64_MAX : 1;
     EnfResult result = app->options.shot ? open_drawing(app, &error) : ENF_OK;
+    app->mode = APP_PLAYING;
     result = result || !app->options.shot ? result : modes_enter(app, &error);
     if (result != ENF_OK) {
         return app_fail(&error);
     }
     for (; ticks < most; ticks++) {
-        play_step(&app->play, &nothing);
+        modes_tick(app);
         if (app->play.replay_ended) {
             break;
         }
-        scene_tick(&app->scene);
     }
     if (take_shot(app, &error) != ENF_OK) {
         return app_fail(&error);

@@ -28,16 +28,23 @@ static const char *key_name(const App *app, Action action) {
     return SDL_GetScancodeName((SDL_Scancode)app->settings.keys[action]);
 }
 
-/* A line of text on a soft ground, its middle at x. */
+/* A style in which the text is no wider than that: smaller, where it would be (narrow windows, keys of long names). */
+static CanvasStyle fitted(double size, uint32_t rgba, const char *text, double width) {
+    CanvasStyle style = canvas_style(size, rgba);
+    double needed = canvas_text_width(&style, text);
+    return needed > width && width > 0.0 ? canvas_style(size * width / needed, rgba) : style;
+}
+
+/* A line of text on a soft ground, in the middle. */
 static void caption(Canvas *c, double y, double size, uint32_t rgba, const char *text) {
     if (!*text) {
         return;
     }
-    CanvasStyle style = canvas_style(size, rgba);
+    CanvasStyle style = fitted(size, rgba, text, c->width - 4.4 * size);
     style.align = CANVAS_CENTER;
     double width = canvas_text_width(&style, text) + 2.4 * size;
     const double ground[4] = {0.5 * (c->width - width), y - 1.75 * size, width, 2.6 * size};
-    canvas_rectangle(c, ground, 0x78100c08u);
+    canvas_rectangle(c, ground, 0xa8100c08u);
     canvas_text(c, &style, 0.5 * c->width, y, text);
 }
 
@@ -53,8 +60,16 @@ static void visibility(Canvas *c, const GameState *s) {
     double u = c->unit, x = 0.5 * c->width, y = c->height - 40.0 * u, wide = 120.0 * u;
     const double whole[4] = {x - 0.5 * wide, y, wide, 5.0 * u};
     const double lit[4] = {x - 0.5 * wide * s->light, y, wide * s->light, 5.0 * u};
-    canvas_rectangle(c, whole, 0x70000000u);
+    const double ground[4] = {whole[0] - 8.0 * u, y - 6.0 * u, wide + 16.0 * u, 32.0 * u};
+    canvas_rectangle(c, ground, 0x88100c08u);
+    canvas_rectangle(c, whole, 0xa0000000u);
     canvas_gradient(c, lit, 0xff50a0d8u, 0xff50a0d8u);
+    CanvasStyle said = canvas_style(10.0 * u, 0xffc8d0d8u);
+    said.align = CANVAS_CENTER;
+    canvas_text(c, &said, x, y + 20.0 * u,
+                s->light < 0.25  ? "in the dark"
+                : s->light < 0.6 ? "half in the light"
+                                 : "in the light");
     if (s->noticed <= 0.0) {
         return;
     }
@@ -74,9 +89,16 @@ static void visibility(Canvas *c, const GameState *s) {
     canvas_line(c, pupil, 2.0 * open * 0.6 + 2.0, color);
 }
 
-static void possessions(Canvas *c, const GameState *s) {
+static void possessions(Canvas *c, const GameState *s, uint64_t tick) {
     double u = c->unit, left = 24.0 * u, base = c->height - 30.0 * u;
     char text[96];
+    const double ground[4] = {0.0, base - (s->carried ? 76.0 : 48.0) * u, 260.0 * u,
+                              c->height - base + (s->carried ? 76.0 : 48.0) * u};
+    const double corner[4] = {c->width - 130.0 * u, base - 22.0 * u, 130.0 * u, c->height - base + 22.0 * u};
+    if (s->wanted) {
+        canvas_gradient(c, ground, 0xa0100c08u, 0x00100c08u);
+    }
+    canvas_gradient(c, corner, 0x00100c08u, 0xa0100c08u);
     CanvasStyle style = canvas_style(13.0 * u, PALE);
     if (s->wanted) {
         snprintf(text, sizeof text, "%u of %u carried out", s->delivered, s->wanted);
@@ -94,8 +116,8 @@ static void possessions(Canvas *c, const GameState *s) {
         canvas_text(c, &style, left, base - 56.0 * u, text);
     }
     style.align = CANVAS_RIGHT;
-    style.rgba = DIM;
-    snprintf(text, sizeof text, "%u:%02u", (unsigned)(s->tick / ENF_TICK_RATE / 60), (unsigned)(s->tick / ENF_TICK_RATE % 60));
+    style.rgba = PALE;
+    snprintf(text, sizeof text, "%u:%02u", (unsigned)(tick / ENF_TICK_RATE / 60), (unsigned)(tick / ENF_TICK_RATE % 60));
     canvas_text(c, &style, c->width - 24.0 * u, base, text);
     if (s->crouched || s->flying) {
         canvas_text(c, &style, c->width - 24.0 * u, base - 24.0 * u, s->flying ? "flying" : "crouched");
@@ -175,11 +197,11 @@ static void map_screen(App *app, const GameState *s) {
     char room[64];
     room_name(app, s->cell, room);
     canvas_text(c, &style, 40.0 * u, 52.0 * u, room);
-    style = canvas_style(12.0 * u, DIM);
     char text[160];
     snprintf(text, sizeof text,
              "Carry %u of %u exhibits to the way out. Full squares: on this storey. Guards see by light: keep to the dark.",
              s->wanted, s->exhibits);
+    style = fitted(12.0 * u, 0xffb0b8c0u, text, c->width - 80.0 * u);
     canvas_text(c, &style, 40.0 * u, c->height - 40.0 * u, text);
 }
 
@@ -236,12 +258,14 @@ void hud_draw(App *app) {
         if (app->map_shown) {
             map_screen(app, s);
         } else if (menu_page(app) == MENU_NONE) {
-            crosshair(c, *s->prompt != '\0');
-            prompt(app, s);
-            caption(c, 0.16 * c->height, 16.0 * c->unit, PALE, s->message);
-            visibility(c, s);
-            possessions(c, s);
-            objective(app, s);
+            if (s->phase == GAME_PLAYING) {
+                crosshair(c, *s->prompt != '\0');
+                prompt(app, s);
+                caption(c, 0.16 * c->height, 16.0 * c->unit, PALE, s->message);
+                visibility(c, s);
+                objective(app, s);
+            }
+            possessions(c, s, app->over_tick);
             over(app, s);
         }
         replay_lines(app);

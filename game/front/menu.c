@@ -188,6 +188,7 @@ static void act(App *app, Act what) {
     case ACT_DEFAULTS:
         app->settings = settings_default();
         app->size_once = app->fullscreen_once = false;
+        hud_notice(app, "All settings are as they were at first");
         apply(app);
         break;
     }
@@ -321,7 +322,7 @@ static void draw_row(App *app, const Row *row, bool chosen, const double box[4])
     Canvas *c = &app->canvas;
     if (chosen) {
         const double mark[4] = {box[0], box[1] + 0.2 * box[3], 3.0 * c->unit, 0.6 * box[3]};
-        canvas_gradient(c, box, 0x50e8b060u, 0x00e8b060u);
+        canvas_gradient(c, box, 0x5060b0e8u, 0x1060b0e8u);
         canvas_rectangle(c, mark, 0xff60b0e8u);
     }
     CanvasStyle style = canvas_style(0.34 * box[3], chosen ? 0xffffffffu : 0xffc8ccd0u);
@@ -340,7 +341,7 @@ static const char *subtitle(const App *app, char text[96]) {
     if (page == MENU_TITLE) {
         snprintf(text, 96, "Night at the palace");
     } else if (s && (page == MENU_WON || page == MENU_LOST)) {
-        unsigned seconds = (unsigned)(s->tick / ENF_TICK_RATE);
+        unsigned seconds = (unsigned)(app->over_tick / ENF_TICK_RATE);
         snprintf(text, 96, "%u of %u exhibits carried out, worth %u, in %u:%02u", s->delivered, s->wanted, s->score,
                  seconds / 60, seconds % 60);
     } else if (s && page == MENU_PAUSE) {
@@ -351,6 +352,17 @@ static const char *subtitle(const App *app, char text[96]) {
     return text;
 }
 
+/* How a menu is used, at its foot. */
+static void draw_hint(App *app) {
+    Canvas *c = &app->canvas;
+    CanvasStyle style = canvas_style(11.0 * c->unit, 0xffa0a8b0u);
+    const char *text = app->menu.waiting >= 0 ? "Press the key that shall do this. Esc: leave it as it is"
+                       : menu_page(app) == MENU_TITLE || app->over_shown
+                           ? "Arrows or mouse: choose    Enter: do it"
+                           : "Arrows or mouse: choose, change    Enter: do it    Esc: back";
+    canvas_text(c, &style, 64.0 * c->unit, c->height - 28.0 * c->unit, text);
+}
+
 void menu_draw(App *app) {
     if (!app->menu.depth) {
         return;
@@ -358,10 +370,13 @@ void menu_draw(App *app) {
     Canvas *c = &app->canvas;
     const Page *page = page_of(app);
     bool is_title = menu_page(app) == MENU_TITLE;
-    const double all[4] = {0.0, 0.0, c->width, c->height}, side[4] = {0.0, 0.0, 0.62 * c->width, c->height};
-    canvas_rectangle(c, all, is_title ? 0x20000000u : 0x70080604u);
-    canvas_gradient(c, side, 0xd0120c08u, 0x00120c08u);
-    double left = 64.0 * c->unit, row_height = (page->count > 8 ? 36.0 : 44.0) * c->unit;
+    double left = 64.0 * c->unit, wide = left + 420.0 * c->unit;
+    const double all[4] = {0.0, 0.0, c->width, c->height}, side[4] = {0.0, 0.0, wide, c->height};
+    const double edge[4] = {wide, 0.0, 160.0 * c->unit, c->height};
+    canvas_rectangle(c, all, is_title ? 0x20000000u : 0x50080604u);
+    canvas_gradient(c, side, 0xe0120c08u, 0xb0120c08u); /* dark enough to read values on, whatever is behind */
+    canvas_gradient(c, edge, 0xb0120c08u, 0x00120c08u);
+    double row_height = (page->count > 8 ? 36.0 : 44.0) * c->unit;
     double top = 0.5 * c->height - 0.5 * row_height * (double)page->count + 40.0 * c->unit;
     CanvasStyle title = canvas_style((is_title ? 46.0 : 28.0) * c->unit, 0xffe8f0f8u);
     title.pen = is_title ? 0.075 : 0.09;
@@ -379,4 +394,5 @@ void menu_draw(App *app) {
         box[3] = row_height;
         draw_row(app, &page->rows[i], app->menu.chosen[app->menu.depth - 1] == i, box);
     }
+    draw_hint(app);
 }

@@ -142,7 +142,9 @@ static void play_tick(App *app) {
     scene_tick(&app->scene);
     state = game_state(app->play.game);
     hear(app, state);
-    if (state->phase != GAME_PLAYING) {
+    if (state->phase == GAME_PLAYING) {
+        app->over_tick = state->tick; /* the night ends then, whatever goes on behind the menu */
+    } else {
         app->over_ms += TICK_MS;
         if (!app->over_shown && app->over_ms > OVER_MENU_MS) {
             app->over_shown = true;

@@ -88,7 +88,12 @@ void window_apply(App *app) {
     }
     SDL_SetWindowFullscreen(app->window, s->fullscreen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0U);
     if (!s->fullscreen) {
-        SDL_SetWindowSize(app->window, (int)s->width, (int)s->height);
+        int width = 0, height = 0;
+        SDL_GetWindowSize(app->window, &width, &height);
+        if (width != (int)s->width || height != (int)s->height) {
+            SDL_SetWindowSize(app->window, (int)s->width, (int)s->height);
+            SDL_SetWindowPosition(app->window, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED); /* not half out of the screen */
+        }
     }
     SDL_GL_SetSwapInterval(s->vsync ? 1 : 0);
     window_measure(app);

@@ -99,6 +99,14 @@ static uint32_t lift_below(const Game *game) {
     return ENF_NONE;
 }
 
+static bool calls_lift(const Game *game, uint32_t index) {
+    bool calls = false;
+    for (uint32_t i = 0; i < game->lift_count; i++) {
+        calls = calls || game->lifts[i].name == game->buttons[index].target;
+    }
+    return calls;
+}
+
 static void press(Game *game, uint32_t index) {
     const SimButton *button = &game->buttons[index];
     sim_sound(game, GAME_SOUND_SWITCH, enf_world_pose(game->world, button->object).position, game->player.body.cell, 0.5);
@@ -135,7 +143,8 @@ void sim_use(Game *game, bool now) {
             take(game, item);
         }
     } else if (button != ENF_NONE) {
-        snprintf(game->shown.prompt, GAME_TEXT_SIZE, "press");
+        snprintf(game->shown.prompt, GAME_TEXT_SIZE, "%s",
+                 calls_lift(game, button) ? "call the elevator" : "press the switch: it opens a door");
         if (now) {
             press(game, button);
         }
