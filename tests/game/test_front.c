@@ -1,6 +1,6 @@
 /* The program behind the window, driven without one: gamepads that come and go, focus, menus, the screens of a game won and lost, the
  * elevator by the use key, and what 36,000 frames and a hundred games cost. tests/game/play.sh drives the window itself. */
-#include "harness/harness.h"
+#include "harness/program.h"
 #include "scenes/night.h"
 
 #include "front/app.h"
@@ -46,12 +46,10 @@ static const char *night(EnfNightDef def) {
 }
 
 static const char *palace(void) {
-    static char path[1024], command[4096];
+    static char path[1024];
     if (!*path) {
         snprintf(path, sizeof path, "%s", enf_test_temp_path("palace.enfmap"));
-        snprintf(command, sizeof command, "'%s/enfc' --quiet '%s' --project '%s' -o '%s'", ENF_BIN_DIR,
-                 enf_test_source_path("assets/palace/palace.glb"), enf_test_source_path("maps/palace/palace.json"), path);
-        assert_int_equal(enf_test_shell(command), 0);
+        assert_int_equal(enf_test_compile_palace(path), 0);
     }
     return path;
 }

@@ -1,6 +1,7 @@
 /* engine/gl: culled pictures equal unculled ones byte for byte, in both headless contexts; the id-buffer names what rays
  * hit; colours come out as they went in. No picture is stored: both sides of each comparison are drawn in this run. */
 #include "harness/harness.h"
+#include "harness/pictures.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@
 #include "scenes/rooms.h"
 
 enum { WIDTH = 320, HEIGHT = 240, SIZE = WIDTH * HEIGHT * 4 };
+#define PIXEL(x, y) ((size_t)(y)*WIDTH + (x))
 static const double NEAR = 0.02;
 
 /* A map on a target in a context, with the visibility of two views: everything, and culled. */
@@ -90,25 +92,21 @@ static const EnfDrawList *shoot_culled(Stage *stage, const EnfView *view) {
     return list;
 }
 
-static uint32_t id_at(const uint8_t *ids, uint32_t x, uint32_t y) {
-    const uint8_t *p = ids + ((size_t)y * WIDTH + x) * 4;
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
-static uint32_t count_differences(const uint8_t *a, const uint8_t *b) {
-    uint32_t count = 0;
-    for (size_t i = 0; i < SIZE; i += 4) {
-        count += memcmp(a + i, b + i, 4) != 0;
-    }
-    return count;
-}
+/* Whose pictures, and of which eye. */
+typedef struct Shot {
+    const Stage *stage;
+    const EnfCamera *camera;
+} Shot;
 
 /* Does an exact ray through the middle of the pixel, or nearly, meet the cluster that the unculled picture shows? */
-static bool is_real(const Stage *stage, const EnfCamera *camera, uint32_t x, uint32_t y) {
-    for (int i = 0; i < 9; i++) {
+static bool is_real(const void *user, size_t pixel) {
+    const Shot *shot = user;
+    for (int i = 0; i < ENF_TEST_RAYS; i++) {
         uint32_t cluster;
-        double t, u = x + 0.5 + 0.02 * (i % 3 - 1), v = y + 0.5 + 0.02 * (i / 3 - 1);
-        if (enf_oracle_ray(stage->map, camera, u, v, &cluster, &t) && id_at(stage->pictures[1], x, y) == cluster + 1) {
+        double t, uv[2];
+        enf_test_ray_of(pixel, WIDTH, i, uv);
+        if (enf_oracle_ray(shot->stage->map, shot->camera, uv[0], uv[1], &cluster, &t) &&
+            enf_test_id_at(shot->stage->pictures[1], pixel) == cluster + 1) {
             return true;
         }
     }
@@ -120,14 +118,10 @@ static bool is_real(const Stage *stage, const EnfCamera *camera, uint32_t x, uin
  * the unculled picture shows, and such pixels are not counted. Levels are welded by the compiler: for them
  * tests/golden/test_levels excuses nothing. */
 static uint32_t count_lost(const Stage *stage, const EnfCamera *camera) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < WIDTH * HEIGHT; i++) {
-        size_t at = (size_t)i * 4;
-        bool same = memcmp(stage->pictures[0] + at, stage->pictures[2] + at, 4) == 0 &&
-                    memcmp(stage->pictures[1] + at, stage->pictures[3] + at, 4) == 0;
-        count += !same && is_real(stage, camera, i % WIDTH, i / WIDTH);
-    }
-    return count;
+    uint8_t *const *of = stage->pictures;
+    const EnfTestPictures pictures = {{of[0], of[1], of[2], of[3]}, (size_t)WIDTH * HEIGHT};
+    const Shot shot = {stage, camera};
+    return enf_test_count_lost(&pictures, is_real, &shot);
 }
 
 /* ---- eyes ------------------------------------------------------------------------------------------------------- */
@@ -252,7 +246,7 @@ static void both_contexts_draw_the_same(void **state) {
 static bool is_inner(const uint8_t *ids, uint32_t x, uint32_t y) {
     for (uint32_t v = y - 1; v <= y + 1; v++) {
         for (uint32_t u = x - 1; u <= x + 1; u++) {
-            if (id_at(ids, u, v) != id_at(ids, x, y)) {
+            if (enf_test_id_at(ids, PIXEL(u, v)) != enf_test_id_at(ids, PIXEL(x, y))) {
                 return false;
             }
         }
@@ -275,7 +269,7 @@ static void ids_name_what_rays_hit(void **state) {
             uint32_t cluster;
             double t;
             if (is_inner(stage.pictures[1], x, y) && enf_oracle_ray(rooms.map, &view.camera, x + 0.5, y + 0.5, &cluster, &t)) {
-                assert_int_equal(id_at(stage.pictures[1], x, y), cluster + 1);
+                assert_int_equal(enf_test_id_at(stage.pictures[1], PIXEL(x, y)), cluster + 1);
                 compared++;
             }
         }
@@ -316,7 +310,7 @@ static void shoot_middle(const EnfMap *map, uint8_t color[4], uint32_t *id) {
     view.camera = enf_camera(enf_v3(0, 0, 0), enf_turn(0, 0, 0), 60, WIDTH, HEIGHT);
     shoot_all(&stage, &view);
     memcpy(color, stage.pictures[0] + ((size_t)HEIGHT / 2 * WIDTH + WIDTH / 2) * 4, 4);
-    *id = id_at(stage.pictures[1], WIDTH / 2, HEIGHT / 2);
+    *id = enf_test_id_at(stage.pictures[1], PIXEL(WIDTH / 2, HEIGHT / 2));
     close_stage(&stage);
 }
 
@@ -448,13 +442,13 @@ static void lines_and_wireframe_draw_over_the_picture(void **state) {
     enf_gl_target_bind(stage.target, ENF_RENDER_COLOR);
     enf_gl_draw_lines(stage.gl, list->clip_from_eye, line, 2, true);
     enf_gl_target_read(stage.target, ENF_RENDER_COLOR, stage.pictures[0]);
-    uint32_t changed = count_differences(stage.pictures[0], stage.pictures[2]);
+    uint32_t changed = enf_test_differing(stage.pictures[0], stage.pictures[2], (size_t)WIDTH * HEIGHT);
     assert_in_range(changed, WIDTH / 2, 2 * WIDTH);
     enf_gl_draw_wireframe(stage.gl, list, 0xffffffffu);
     enf_gl_target_read(stage.target, ENF_RENDER_COLOR, stage.pictures[1]);
-    assert_true(count_differences(stage.pictures[1], stage.pictures[2]) > changed);
+    assert_true(enf_test_differing(stage.pictures[1], stage.pictures[2], (size_t)WIDTH * HEIGHT) > changed);
     shoot(&stage, list, ENF_RENDER_COLOR, stage.pictures[1]); /* and leave no state behind */
-    assert_int_equal(count_differences(stage.pictures[1], stage.pictures[2]), 0);
+    assert_int_equal(enf_test_differing(stage.pictures[1], stage.pictures[2], (size_t)WIDTH * HEIGHT), 0);
     close_stage(&stage);
     enf_rooms_destroy(&rooms);
 }

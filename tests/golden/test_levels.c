@@ -1,6 +1,6 @@
 /* Real levels: each compiles, loses no pixel along its recorded paths, and shows the cells that its brute-force visibility
  * names (`must`: cells with at least four solid 2 × 2 blocks of pixels). The programs do the work, as a user runs them. */
-#include "harness/harness.h"
+#include "harness/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +27,7 @@ static const char *data_file(const Level *level, const char *path, const char *e
 
 /* The compiled map; compiled at its first use. */
 static const char *map_of(const Level *level) {
-    char name[256], command[COMMAND_SIZE];
+    char name[256];
     const char *slash = strrchr(level->name, '/');
     snprintf(name, sizeof name, "%s.enfmap", slash ? slash + 1 : level->name);
     const char *map = enf_test_temp_path(name);
@@ -36,8 +36,7 @@ static const char *map_of(const Level *level) {
         fclose(there);
         return map;
     }
-    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2>&1", ENF_BIN_DIR, data_file(level, "", ".glb"), map);
-    assert_int_equal(enf_test_shell(command), 0);
+    assert_int_equal(enf_test_enfc(data_file(level, "", ".glb"), "", map), 0);
     return map;
 }
 
@@ -182,11 +181,8 @@ static void no_pixel_is_lost_among_movers(void **state) {
 /* The palace with its own life, and doors that close their portals while they are shut: what closes a portal must hide all beyond. */
 static void the_palace_loses_nothing(void **state) {
     (void)state;
-    char command[COMMAND_SIZE];
     const char *map = enf_test_temp_path("palace.enfmap");
-    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2>&1", ENF_BIN_DIR,
-             enf_test_source_path("assets/palace/palace.glb"), map);
-    assert_int_equal(enf_test_shell(command), 0);
+    assert_int_equal(enf_test_compile_palace(map), 0);
     need_pictures(map);
     verify(map, enf_test_source_path("maps/palace/tour.csv"), enf_test_long() ? 30 : 2000, NULL, "--doors close --dbv reach");
 }

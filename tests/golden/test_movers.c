@@ -2,6 +2,7 @@
  * the one of everything, byte for byte; with doors that close their portals, objects that are born, die and are set elsewhere, in both
  * headless contexts. Their light does not ask what is visible, and is that of the walls. No picture is stored. */
 #include "harness/harness.h"
+#include "harness/pictures.h"
 
 #include <float.h>
 #include <math.h>
@@ -92,11 +93,6 @@ static void shoot(Stage *stage, const EnfView *view, uint8_t **pictures) {
     }
 }
 
-static uint32_t id_at(const uint8_t *ids, size_t pixel) {
-    const uint8_t *p = ids + pixel * 4;
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
 /* ---- what a ray meets ------------------------------------------------------------------------------------------- */
 
 /* The nearest point of the object's triangles, front or back, along the ray from the eye; DBL_MAX for none. */
@@ -134,32 +130,41 @@ static uint32_t solid_id(Stage *stage, const EnfDrawList *list, size_t pixel) {
     enf_gl_target_bind(stage->target, ENF_RENDER_IDS);
     enf_gl_draw(stage->gl, &solid, ENF_RENDER_IDS);
     enf_gl_target_read(stage->target, ENF_RENDER_IDS, ids);
-    uint32_t id = id_at(ids, pixel);
+    uint32_t id = enf_test_id_at(ids, pixel);
     free(ids);
     return id;
 }
 
+/* Whose pictures, and of which eye. */
+typedef struct Shot {
+    Stage *stage;
+    const EnfView *view;
+} Shot;
+
 /* Is what the picture of everything shows in a pixel really there, in front of all walls? Rooms of this scene have T-junctions (a
  * door's corner on the edge of a ceiling), between whose triangles the rasteriser may let what is behind shine through; exact rays
  * meet the wall there. tests/golden/test_levels excuses nothing: compiled levels are welded. */
-static bool is_real(Stage *stage, const EnfView *view, size_t pixel) {
-    const EnfCamera *camera = &view->camera;
-    EnfView all = *view;
+static bool is_real(const void *user, size_t pixel) {
+    const Shot *shot = user;
+    Stage *stage = shot->stage;
+    const EnfCamera *camera = &shot->view->camera;
+    EnfView all = *shot->view;
     all.cull = ENF_CULL_NONE;
     all.dbv = NULL;
     const EnfVisSet *set = enf_vis_run(stage->vis, &stage->moving.portals, &all);
     const EnfDrawList *list = enf_draw_build(stage->draw, set, NEAR, stage->moving.world, stage->alpha);
-    uint32_t id = id_at(stage->pictures[1], pixel);
-    if (id == id_at(stage->pictures[3], pixel)) { /* the same pane in both: it is what lies behind that differs */
+    uint32_t id = enf_test_id_at(stage->pictures[1], pixel);
+    if (id == enf_test_id_at(stage->pictures[3], pixel)) { /* the same pane in both: it is what lies behind that differs */
         id = solid_id(stage, list, pixel);
     }
-    for (int i = 0; i < 9; i++) {
-        double u = (double)(pixel % WIDTH) + 0.5 + 0.02 * (i % 3 - 1), v = (double)(pixel / WIDTH) + 0.5 + 0.02 * (i / 3 - 1);
-        double x = (2.0 * u / WIDTH - 1.0) * camera->tan_x, y = (2.0 * v / HEIGHT - 1.0) * camera->tan_y;
+    for (int i = 0; i < ENF_TEST_RAYS; i++) {
+        double uv[2];
+        enf_test_ray_of(pixel, WIDTH, i, uv);
+        double x = (2.0 * uv[0] / WIDTH - 1.0) * camera->tan_x, y = (2.0 * uv[1] / HEIGHT - 1.0) * camera->tan_y;
         EnfVec3 direction = enf_add(camera->forward, enf_add(enf_scale(camera->right, x), enf_scale(camera->up, y)));
         uint32_t cluster = ENF_NONE;
         double wall = DBL_MAX, nearest = DBL_MAX;
-        bool sure = enf_oracle_ray(stage->map, camera, u, v, &cluster, &wall);
+        bool sure = enf_oracle_ray(stage->map, camera, uv[0], uv[1], &cluster, &wall);
         for (uint32_t m = 0; m < list->mover_count; m++) {
             if (list->movers[m].object + stage->map->clusters_count + 1 == id) {
                 nearest = ray_to_mover(stage, &list->movers[m], direction);
@@ -177,13 +182,10 @@ static uint32_t count_lost(Stage *stage, const EnfView *view) {
         memcmp(stage->pictures[1], stage->pictures[3], SIZE) == 0) {
         return 0;
     }
-    uint32_t count = 0;
-    for (size_t i = 0; i < SIZE; i += 4) {
-        bool same = memcmp(stage->pictures[0] + i, stage->pictures[2] + i, 4) == 0 &&
-                    memcmp(stage->pictures[1] + i, stage->pictures[3] + i, 4) == 0;
-        count += !same && is_real(stage, view, i / 4) ? 1U : 0U;
-    }
-    return count;
+    uint8_t *const *of = stage->pictures;
+    const EnfTestPictures pictures = {{of[0], of[1], of[2], of[3]}, (size_t)WIDTH * HEIGHT};
+    const Shot shot = {stage, view};
+    return enf_test_count_lost(&pictures, is_real, &shot);
 }
 
 /* ---- eyes ------------------------------------------------------------------------------------------------------- */
@@ -226,7 +228,7 @@ static EnfView random_view(const Stage *stage, EnfTestRng *rng, uint32_t round) 
 
 static void count_movers(Stage *stage) {
     for (size_t i = 0; i < SIZE / 4; i++) {
-        stage->movers_seen += id_at(stage->pictures[1], i) > stage->map->clusters_count ? 1U : 0U;
+        stage->movers_seen += enf_test_id_at(stage->pictures[1], i) > stage->map->clusters_count ? 1U : 0U;
     }
 }
 

@@ -62,6 +62,27 @@ static inline void enf_test_put_buffer(EnfTestText *out, const void *data, size_
     enf_test_put(out, "\"}]");
 }
 
+/** A cube from -0.5 to 0.5, as the bytes behind accessors: corners and two index lists, whose fronts show outward and inward. */
+typedef struct EnfTestCube {
+    float corners[8][3];
+    uint16_t outward[36], inward[36];
+} EnfTestCube;
+
+static inline void enf_test_cube(EnfTestCube *cube) {
+    static const uint16_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (int i = 0; i < 8; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            cube->corners[i][axis] = i >> axis & 1 ? 0.5F : -0.5F;
+        }
+    }
+    for (int f = 0; f < 6; f++) {
+        const uint16_t *c = faces[f];
+        const uint16_t out[6] = {c[0], c[1], c[2], c[0], c[2], c[3]}, in[6] = {c[0], c[2], c[1], c[0], c[3], c[2]};
+        memcpy(cube->outward + 6 * f, out, sizeof out);
+        memcpy(cube->inward + 6 * f, in, sizeof in);
+    }
+}
+
 /** What an import gave. Free with enf_test_import_free. */
 typedef struct EnfTestImport {
     EnfResult result;

@@ -1,5 +1,6 @@
 /* Swept capsules against every triangle: none ends inside a surface, none passes one, none stops short, at up to 300 m/s; in the
  * palace, in real levels, in rooms, and in soups of random polygons. */
+#include "harness/program.h"
 #include "harness/purse.h"
 #include "scenes/maker.h"
 #include "scenes/rooms.h"
@@ -305,14 +306,7 @@ static void walk_about(Ground *g, uint32_t ticks) {
 
 static void try_level(const char *name, const char *path, uint32_t moves, uint64_t stream) {
     EnfMap map;
-    EnfError error = {0};
-    char command[2048];
-    const char *out = enf_test_temp_path("collide.enfmap");
-    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2>&1", ENF_BIN_DIR, path, out);
-    assert_int_equal(enf_test_shell(command), 0);
-    if (enf_map_read(&map, out, NULL, &error) != ENF_OK) {
-        fail_msg("%s: %s", name, error.message);
-    }
+    enf_test_compile_map(&map, path);
     Ground g;
     ground_open(&g, name, &map, stream, false);
     fly_about(&g, moves);

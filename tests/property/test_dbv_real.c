@@ -3,7 +3,7 @@
  * draws, and nothing is late; the share of objects that no frame touched is printed. */
 #include "common/mover_csv.h"
 #include "common/path_csv.h"
-#include "harness/harness.h"
+#include "harness/program.h"
 #include "scenes/drawn.h"
 #include "scenes/rooms.h"
 
@@ -167,18 +167,6 @@ typedef struct Level {
     bool smooth; /* points are control points of a curve; else positions of every moment that mattered */
 } Level;
 
-static void compile_level(EnfMap *map, const char *level) {
-    char command[2048];
-    const char *out = enf_test_temp_path("level.enfmap");
-    EnfError error = {0};
-    snprintf(command, sizeof command, "'%s/enfc' '%s' -o '%s' --quiet 2> '%s'", ENF_BIN_DIR, level, out,
-             enf_test_temp_path("warnings.txt"));
-    assert_int_equal(enf_test_shell(command), 0);
-    if (enf_map_read(map, out, NULL, &error)) {
-        fail_msg("%s: %s", level, error.message);
-    }
-}
-
 static void walk_level(Stage *stage, const EnfPathCsv *walk, uint32_t every) {
     EnfView view = enf_view_default();
     uint32_t cell = ENF_NONE;
@@ -206,7 +194,7 @@ static void check_level(const Level *level) {
     Stage *stage = malloc(sizeof *stage);
     assert_true(cast && stage);
     read_cast(cast, movers, enf_v3(0.0, 0.0, 0.0), level->smooth);
-    compile_level(&map, enf_test_data(level->level));
+    enf_test_compile_map(&map, enf_test_data(level->level));
     if (enf_path_csv_read(&walk, path, &error)) {
         fail_msg("%s: %s", path, error.message);
     }

@@ -136,32 +136,12 @@ static const char head[] =
     "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":2}]}],"
     "\"scene\":0,\"scenes\":[{\"nodes\":[0,";
 
-typedef struct Cube {
-    float corners[8][3];
-    uint16_t outward[36], inward[36];
-} Cube;
-
-static void fill_cube(Cube *b) {
-    static const uint16_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    for (int i = 0; i < 8; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            b->corners[i][axis] = i >> axis & 1 ? 0.5F : -0.5F;
-        }
-    }
-    for (int f = 0; f < 6; f++) {
-        const uint16_t *c = faces[f];
-        const uint16_t out[6] = {c[0], c[1], c[2], c[0], c[2], c[3]}, in[6] = {c[0], c[2], c[1], c[0], c[3], c[2]};
-        memcpy(b->outward + 6 * f, out, sizeof out);
-        memcpy(b->inward + 6 * f, in, sizeof in);
-    }
-}
-
 static void put_buffers(EnfTestText *out, const Pool *pool) {
-    Cube cube;
+    EnfTestCube cube;
     char text[256];
     uint8_t *bytes = malloc(sizeof cube + sizeof pool->floats);
     assert_non_null(bytes);
-    fill_cube(&cube);
+    enf_test_cube(&cube);
     memcpy(bytes, &cube, sizeof cube);
     memcpy(bytes + sizeof cube, pool->floats, pool->count * sizeof(float));
     snprintf(text, sizeof text,

@@ -1,6 +1,6 @@
 /* Recorded walks through real levels: at every step the tracked cell is the cell that the recording names, and so is the located one,
  * even where the walker goes through a barrel. */
-#include "harness/harness.h"
+#include "harness/program.h"
 #include <enfilade/map.h>
 
 #include <stdio.h>
@@ -22,18 +22,6 @@ static const Level levels[] = {
     {"freedoom/MAP26_rooms.glb", "freedoom/MAP26_rooms.demo.csv", false},
     {"buildings/duplex.glb", "buildings/duplex.walk.csv", true},
 };
-
-static void compile_level(EnfMap *map, const char *level) {
-    char command[2048];
-    const char *out = enf_test_temp_path("level.enfmap");
-    EnfError error = {0};
-    snprintf(command, sizeof command, "%s/enfc %s -o %s --quiet 2> %s", ENF_BIN_DIR, level, out,
-             enf_test_temp_path("warnings.txt"));
-    assert_int_equal(enf_test_shell(command), 0);
-    if (enf_map_read(map, out, NULL, &error)) {
-        fail_msg("%s: %s", level, error.message);
-    }
-}
 
 typedef struct Step {
     EnfVec3 at;
@@ -79,7 +67,7 @@ static void test_walks(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof levels / sizeof *levels; i++) {
         EnfMap map;
-        compile_level(&map, enf_test_data(levels[i].level));
+        enf_test_compile_map(&map, enf_test_data(levels[i].level));
         walk(&map, &levels[i]);
         enf_map_free(&map);
     }

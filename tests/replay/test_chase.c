@@ -1,6 +1,6 @@
 /* The palace, chased through: a runner from room to room, upstairs and down again, and a guard after him; and guards sent from their
  * rounds to places all over it. */
-#include "harness/harness.h"
+#include "harness/program.h"
 
 #include "sim/bot.h"
 #include "sim/sim.h"
@@ -17,13 +17,10 @@ static Game *game;
 
 static int open_palace(void **state) {
     (void)state;
-    char command[4096];
     EnfError error = {ENF_OK, 0, "", ""};
     const char *path = enf_test_temp_path("palace.enfmap");
-    snprintf(command, sizeof command, "'%s/enfc' '%s' --project '%s' -o '%s' --quiet 2>&1 </dev/null", ENF_BIN_DIR,
-             enf_test_source_path("assets/palace/palace.glb"), enf_test_source_path("maps/palace/palace.json"), path);
     GameDef def = game_def_default();
-    return enf_test_shell(command) != 0 || enf_map_read(&map, path, NULL, &error) != ENF_OK ||
+    return enf_test_compile_palace(path) != 0 || enf_map_read(&map, path, NULL, &error) != ENF_OK ||
            game_create(&game, &map, &def, NULL, &error) != ENF_OK;
 }
 

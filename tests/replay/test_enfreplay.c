@@ -1,6 +1,6 @@
 /* enfreplay as it is called: records, verifies, draws, updates; what it says of divergences, damage, foreign recordings and wrong
  * scripts; its exit statuses. */
-#include "harness/harness.h"
+#include "harness/program.h"
 #include "scenes/rooms.h"
 
 #include <enfilade/replay.h>
@@ -9,39 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static char folder[512]; /* of this run; the maps and recordings in it are named by '@' */
-
-/* Runs enfreplay with `arguments`, '@' being the folder; its output and errors, to be freed, in *text. */
-static int run(const char *arguments, char **text) {
-    char command[4096];
-    int at = snprintf(command, sizeof command, "%s/enfreplay ", ENF_BIN_DIR);
-    for (const char *c = arguments; *c; c++) {
-        at += *c == '@' ? snprintf(command + at, sizeof command - (size_t)at, "%s", folder)
-                        : snprintf(command + at, sizeof command - (size_t)at, "%c", *c);
-    }
-    const char *out = enf_test_temp_path("out.txt");
-    snprintf(command + at, sizeof command - (size_t)at, " > %s 2>&1 < /dev/null", out);
-    int status = enf_test_shell(command);
-    size_t size;
-    *text = (char *)enf_test_read_file(out, &size);
-    return status;
-}
-
-static void expect(const char *arguments, int status, const char *const *parts) {
-    char *text;
-    int got = run(arguments, &text);
-    if (got != status) {
-        fail_msg("enfreplay %s: status %d instead of %d:\n%s", arguments, got, status, text);
-    }
-    for (; *parts; parts++) {
-        if (!strstr(text, *parts)) {
-            fail_msg("enfreplay %s: no \"%s\" in:\n%s", arguments, *parts, text);
-        }
-    }
-    free(text);
-}
-
-#define EXPECT(arguments, status, ...) expect(arguments, status, (const char *const[]){__VA_ARGS__, NULL})
+#define EXPECT(arguments, status, ...) ENF_TEST_EXPECT("enfreplay", arguments, status, __VA_ARGS__)
 
 static void write_text(const char *name, const char *text) {
     enf_test_write_file(enf_test_temp_path(name), text, strlen(text));
@@ -61,7 +29,6 @@ static void write_rooms(const char *name, uint32_t nx) {
 
 static int make_folder(void **state) {
     (void)state;
-    snprintf(folder, sizeof folder, "%s", enf_test_temp_folder());
     write_rooms("rooms.enfmap", 3);
     write_rooms("other.enfmap", 2);
     write_text("walk.script", "enfinput 1\n"

@@ -11,26 +11,15 @@ enum { KEYS = 3, ROCKS = 60 };
 
 /* The bytes behind the accessors of `head`. */
 typedef struct Bytes {
-    float corners[8][3]; /* of a cube from -0.5 to 0.5 */
-    float door[4][3];    /* a quad 1 wide (z), 2 high (y), front to +x, origin at its foot */
-    uint16_t outward[36], inward[36], quad[6];
+    EnfTestCube cube;
+    float door[4][3]; /* a quad 1 wide (z), 2 high (y), front to +x, origin at its foot */
+    uint16_t quad[6];
     float times[KEYS], places[KEYS][3], turns[KEYS][4], tangents[3 * KEYS][3];
 } Bytes;
 
 static void fill_bytes(Bytes *b) {
-    static const uint16_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     memset(b, 0, sizeof *b);
-    for (int i = 0; i < 8; i++) {
-        for (int axis = 0; axis < 3; axis++) {
-            b->corners[i][axis] = i >> axis & 1 ? 0.5F : -0.5F;
-        }
-    }
-    for (int f = 0; f < 6; f++) {
-        const uint16_t *c = faces[f];
-        const uint16_t out[6] = {c[0], c[1], c[2], c[0], c[2], c[3]}, in[6] = {c[0], c[2], c[1], c[0], c[3], c[2]};
-        memcpy(b->outward + 6 * f, out, sizeof out);
-        memcpy(b->inward + 6 * f, in, sizeof in);
-    }
+    enf_test_cube(&b->cube);
     const float door[4][3] = {{0, 0, 0.5F}, {0, 0, -0.5F}, {0, 2, -0.5F}, {0, 2, 0.5F}};
     const uint16_t quad[6] = {0, 1, 2, 0, 2, 3};
     memcpy(b->door, door, sizeof door);
@@ -88,10 +77,15 @@ static const char *write_level(const char *nodes, const char *roots, const char 
     const struct {
         const void *at;
         size_t size;
-    } views[] = {
-        {bytes.corners, sizeof bytes.corners}, {bytes.door, sizeof bytes.door},   {bytes.outward, sizeof bytes.outward},
-        {bytes.inward, sizeof bytes.inward},   {bytes.quad, sizeof bytes.quad},   {bytes.times, sizeof bytes.times},
-        {bytes.places, sizeof bytes.places},   {bytes.turns, sizeof bytes.turns}, {bytes.tangents, sizeof bytes.tangents}};
+    } views[] = {{bytes.cube.corners, sizeof bytes.cube.corners},
+                 {bytes.door, sizeof bytes.door},
+                 {bytes.cube.outward, sizeof bytes.cube.outward},
+                 {bytes.cube.inward, sizeof bytes.cube.inward},
+                 {bytes.quad, sizeof bytes.quad},
+                 {bytes.times, sizeof bytes.times},
+                 {bytes.places, sizeof bytes.places},
+                 {bytes.turns, sizeof bytes.turns},
+                 {bytes.tangents, sizeof bytes.tangents}};
     EnfTestText out = {NULL, 0, 0};
     enf_test_put(&out, "{\"asset\":{\"version\":\"2.0\"},\"bufferViews\":[");
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {

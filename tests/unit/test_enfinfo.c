@@ -1,5 +1,5 @@
 /* enfinfo as it is called: what it prints about a map, its exit statuses, and its answers to "why". */
-#include "harness/harness.h"
+#include "harness/program.h"
 #include "scenes/everything.h"
 #include "scenes/rooms.h"
 
@@ -7,32 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Runs enfinfo with `arguments`; its output and errors, to be freed, in *text. */
-static int run(const char *arguments, char **text) {
-    char command[2048];
-    const char *out = enf_test_temp_path("out.txt");
-    snprintf(command, sizeof command, "%s/enfinfo %s > %s 2>&1", ENF_BIN_DIR, arguments, out);
-    int status = enf_test_shell(command);
-    size_t size;
-    *text = (char *)enf_test_read_file(out, &size);
-    return status;
-}
-
-static void expect(const char *arguments, int status, const char *const *parts) {
-    char *text;
-    int got = run(arguments, &text);
-    if (got != status) {
-        fail_msg("enfinfo %s: status %d instead of %d:\n%s", arguments, got, status, text);
-    }
-    for (; *parts; parts++) {
-        if (!strstr(text, *parts)) {
-            fail_msg("enfinfo %s: no \"%s\" in:\n%s", arguments, *parts, text);
-        }
-    }
-    free(text);
-}
-
-#define EXPECT(arguments, status, ...) expect(arguments, status, (const char *const[]){__VA_ARGS__, NULL})
+#define EXPECT(arguments, status, ...) ENF_TEST_EXPECT("enfinfo", arguments, status, __VA_ARGS__)
 
 /* Three rooms in a row along x, their doors in line; room 0 from 0 to 5. */
 static const char *rooms_map(void) {
