@@ -29,8 +29,9 @@ LEAST = {
 EYE = 1.7
 SHOULDER = 0.2  # metres that a guard's path keeps from corners of pieces
 SLACK = 0.001  # no piece is thinner
-BODY = 0.28  # of a visitor, and what he must have beside him
+BODY = 0.36  # of a visitor, and what he must have beside him: half his width, and a little to spare
 STEP = 0.25  # of the grid on which a room is walked
+KNEE = 0.39  # what is lower is stepped on
 ARM = 1.5  # how far a visitor takes things from
 SEAM = 0.001  # metres between two leaves that nothing is seen through; the compiler's too
 PROBES = 12  # a side, points of an opening at which a leaf must stand
@@ -268,7 +269,7 @@ def outlines(glb, rooms):
         (x0, x1), (y0, y1), (z0, z1) = boxes[node["mesh"]]
         ring = [plan_point(glb, i, (x, y0, z)) for x, z in ((x0, z1), (x1, z1), (x1, z0), (x0, z0))]
         bottom, top = ring[0][2], ring[0][2] + y1 - y0
-        if bottom < rooms[name].floor + 1.6 and top > rooms[name].floor + 0.45:
+        if bottom < rooms[name].floor + 1.6 and top > rooms[name].floor + KNEE:
             result.setdefault(name, []).append([p[:2] for p in ring])
     return result
 

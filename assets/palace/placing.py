@@ -6,11 +6,12 @@ import zlib
 from dataclasses import dataclass
 
 import night
-from geometry import add, bounds, centroid, depth_inside, dot, scale, sub
+from geometry import add, bounds, centroid, depth_inside, dot, lerp, scale, sub
 from shell import Wall
 
 CLEAR_OF_WALK = 0.42
 CLEAR_OF_DOOR = 0.9
+LANE_STEP = 0.25
 CLEAR_OF_WALL = 0.04
 CLEAR_OF_PICTURE = 0.002
 CLEAR_OF_FRAME = 0.22
@@ -46,10 +47,14 @@ class Placer:
         self.taken = {i: [] for i in range(len(self.walls))}  # per wall: (u0, u1, z0, z1) in use
         self.count = self.lights = 0  # pieces and lights put so far; they number the objects
         self.candles = night.Candles(room)
+        doors = []
         for wall, own in zip(room.walls, self.walls):
-            self._mark_openings(wall, own)
+            doors += self._mark_openings(wall, own)
+        self._keep_lanes(doors)
 
     def _mark_openings(self, wall, own):
+        """Keeps openings clear; returns a point of the floor before each doorway."""
+        doors = []
         index = self.walls.index(own)
         for hole in wall.holes:
             us, zs = [own.along(p) for p in hole.outline], [p[2] - self.room.floor for p in hole.outline]
@@ -57,6 +62,16 @@ class Placer:
             self.taken[index].append((u0, u1, min(zs) - CLEAR_OF_FRAME, max(zs) + CLEAR_OF_FRAME))
             if min(zs) < 0.5:
                 self.solids.append(self._strip(own, u0, u1, CLEAR_OF_DOOR))
+                doors.append(add(own.point((u0 + u1) / 2, 0)[:2], scale(own.inward, CLEAR_OF_DOOR)))
+        return doors
+
+    def _keep_lanes(self, doors):
+        """From every doorway a straight lane stays free to the walker's way, or to the middle where he does not come."""
+        ways = self.walk or [self.centre]
+        for door in doors:
+            goal = min(ways, key=lambda p: (math.dist(p, door), p))
+            steps = int(math.dist(door, goal) / LANE_STEP) + 1
+            self.walk += [lerp(door, goal, k / steps) for k in range(steps + 1)]
 
     @staticmethod
     def _strip(wall, u0, u1, depth):
