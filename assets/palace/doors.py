@@ -15,7 +15,6 @@ LOCKED = {  # rooms whose doors want a key: room -> key; "1": only a button open
     "Dungeon": "iron",
     "Buttery": "1",
 }
-SERVICE_THEMES = {"servants", "kitchen", "studio"}  # their doors swing both ways, for hands that carry
 CELLAR_SPEED = 0.8  # metres a second of a door that slides
 
 
@@ -81,12 +80,12 @@ def place_leaf(scene, portal, name, mesh, hinge, extras):
     scene.child(portal.source, name, scene.mesh(name, mesh), snap_point((*at, portal.centre[2])), turn, extras)
 
 
-def hang(scene, rooms, portals):
+def hang(scene, portals):
     """Every leaf as a mover; returns how many."""
     count = 0
     for number, portal in enumerate(portals):
         if has_doors(portal):
-            count += slide(scene, portal, number) if slides(portal) else swing(scene, rooms, portal, number)
+            count += slide(scene, portal, number) if slides(portal) else swing(scene, portal, number)
     return count
 
 
@@ -100,18 +99,15 @@ def slide(scene, portal, number):
     return 1
 
 
-def swing(scene, rooms, portal, number):
-    """One leaf or two on hinges."""
+def swing(scene, portal, number):
+    """One leaf or two on hinges; they swing both ways, away from who opens them."""
     stone = portal.kind.frame == "stone_trim"
-    both_ways = {rooms[portal.source].theme, rooms[portal.target].theme} & SERVICE_THEMES
     leaves = leaf_outlines(portal.kind)
     for side, (hinge, shape, angle) in enumerate(leaves):
         mesh = moving.leaf(shape, "planks" if stone else "wood_white")
-        if len(leaves) == 2 and side == 0 and not both_ways:
+        if len(leaves) == 2 and side == 0:
             astragal(mesh, portal.kind, shape)
-        extras = {"classname": "func_door_rotating", "angle": angle, "speed": 100.0} | extras_of(portal, number)
-        if both_ways:
-            extras["swing_low"] = abs(angle)
+        extras = {"classname": "func_door_rotating", "angle": angle, "swing_low": abs(angle), "speed": 100.0} | extras_of(portal, number)
         place_leaf(scene, portal, f"door_{number}_{side}", mesh, hinge, extras)
     return len(leaves)
 

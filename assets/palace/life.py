@@ -314,7 +314,7 @@ def lift(scene, rooms):
 
 def populate(scene, rooms, portals):
     """Everything that belongs to no single room; returns how many movers."""
-    count = doors.hang(scene, rooms, portals) + post_guards(scene, rooms, portals) + lay_train(scene) + lift(scene, rooms)
+    count = doors.hang(scene, portals) + post_guards(scene, rooms, portals) + lay_train(scene) + lift(scene, rooms)
     count += revolving_doors(scene, portals)
     count += release(
         scene,

@@ -12,6 +12,7 @@ enum { TRIP_TICKS = 240 * ENF_TICK_RATE, SNEAK_TICKS = 900 * ENF_TICK_RATE, STIL
 #define FOOT_NEAR 0.15
 #define GATE_NEAR 0.4
 #define DOOR_AHEAD 2.2
+#define LEAF_BESIDE 1.0
 
 static double flat(EnfVec3 a, EnfVec3 b) {
     double x = a.x - b.x, z = a.z - b.z;
@@ -120,6 +121,20 @@ static bool arrived(const GameBot *bot) {
     return flat(body->position, trip->to) <= trip->near && fabs(body->position.y - trip->to.y) < 2.0;
 }
 
+/* Does a leaf swing or slide beside the feet? Where it is now, it will not be when one gets there. */
+static bool leaf_moves_beside(const Game *game) {
+    EnfVec3 feet = game->player.body.position, knee = enf_v3(feet.x, feet.y + 0.5, feet.z);
+    for (uint32_t i = 0; i < game->door_count; i++) {
+        EnfBox3 box = enf_box3_from_f(enf_world_box(game->world, game->doors[i].object.index));
+        EnfVec3 at = enf_v3(fmin(fmax(knee.x, box.min.x), box.max.x), fmin(fmax(knee.y, box.min.y), box.max.y),
+                            fmin(fmax(knee.z, box.min.z), box.max.z));
+        if (game->doors[i].moving && enf_length(enf_sub(at, knee)) < LEAF_BESIDE) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /* A new path of footholds; false if the bot gives up. */
 static bool plan(GameBot *bot, EnfInput *input, const char **why) {
     BotTrip *trip = &bot->trip;
@@ -129,6 +144,10 @@ static bool plan(GameBot *bot, EnfInput *input, const char **why) {
     if (door != ENF_NONE) {
         *why = "a door on the way is locked";
         return open_door(bot, door, input);
+    }
+    if (leaf_moves_beside(bot->game)) {
+        trip->rest = REST_TICKS / 4;
+        return true;
     }
     trip->at = trip->still = 0;
     bool leads = sim_foot_find(&bot->foot, bot->game->collider, &bot->game->player.body, stop, last ? 0.8 * trip->near : 0.2);
@@ -152,7 +171,7 @@ static void follow(GameBot *bot, EnfInput *input) {
     }
     if (trip->at >= foot->path_count || trip->still > STILL_TICKS) {
         trip->tries += trip->still > STILL_TICKS;
-        trip->rest = trip->still > STILL_TICKS ? REST_TICKS : 0; /* somebody is in the way: let him pass */
+        trip->rest = trip->still > STILL_TICKS ? REST_TICKS : trip->rest; /* somebody is in the way: let him pass */
         bot->foot.path_count = 0;
         return;
     }

@@ -84,7 +84,20 @@ static void send(Game *game, SimDoor *door, double wanted) {
     }
 }
 
-bool sim_door_open(Game *game, uint32_t index, bool keys) {
+/* A leaf that can swing both ways goes away from whom opens it: nobody is caught between it and a wall. */
+static void turn_away(const Game *game, SimDoor *leaf, EnfVec3 from) {
+    const EnfMover *mover = &game->map->movers[leaf->mover];
+    bool rests = leaf->wanted == 0.0 && !leaf->moving;
+    if (!rests || mover->kind != ENF_MOVER_HINGE || !(mover->low < 0.0f && mover->high > 0.0f)) {
+        return;
+    }
+    EnfVec3 hinge = enf_v3(mover->pivot[0], mover->pivot[1], mover->pivot[2]);
+    EnfVec3 axis = enf_v3((double)mover->axis[0], (double)mover->axis[1], (double)mover->axis[2]);
+    EnfVec3 ahead = enf_cross(axis, enf_sub(door_place(game, leaf), hinge)); /* where a positive angle takes it */
+    leaf->open = (double)(enf_dot(ahead, enf_sub(from, hinge)) > 0.0 ? mover->low : mover->high);
+}
+
+bool sim_door_open(Game *game, uint32_t index, bool keys, const EnfVec3 *from) {
     SimDoor *door = &game->doors[index];
     if (door->locked && !keys && !(door->key && sim_has_key(game, door->key))) {
         sim_sound(game, GAME_SOUND_DOOR_LOCKED, door_place(game, door), door->cell, 0.6);
@@ -100,6 +113,9 @@ bool sim_door_open(Game *game, uint32_t index, bool keys) {
         if (together) {
             leaf->locked = keys ? leaf->locked : 0;
             leaf->shut_at = leaf->stays ? sim_tick(game) + leaf->stays : INT64_MAX;
+            if (from) {
+                turn_away(game, leaf, *from);
+            }
             send(game, leaf, leaf->open);
         }
     }

@@ -113,7 +113,7 @@ static void press(Game *game, uint32_t index) {
     sim_lift_call(game, button->target, button->stop);
     for (uint32_t i = 0; i < game->door_count; i++) {
         if (game->doors[i].name == button->target) {
-            sim_door_open(game, i, true);
+            sim_door_open(game, i, true, NULL);
         }
     }
 }
@@ -125,7 +125,7 @@ static void open_door(Game *game, uint32_t index, bool now) {
              barred                ? "try the locked door"
              : door->wanted == 0.0 ? "open the door"
                                    : "");
-    if (now && !sim_door_open(game, index, false)) {
+    if (now && !sim_door_open(game, index, false, &game->player.body.position)) {
         sim_say(game, "The door is locked");
     }
 }

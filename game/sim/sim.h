@@ -230,8 +230,9 @@ void sim_player_step(Game *game, const EnfInput *input);
 
 void sim_doors_start(Game *game);
 void sim_doors_step(Game *game);
-/** Opens the door (and the leaves of its name) if it may: `keys` true for who has a key to everything. False if it is locked. */
-bool sim_door_open(Game *game, uint32_t door, bool keys);
+/** Opens the door (and the leaves of its name) if it may: `keys` true for who has a key to everything. Leaves that can go both ways go
+ *  away from `from` (NULL: as they went last). False if it is locked. */
+bool sim_door_open(Game *game, uint32_t door, bool keys, const EnfVec3 *from);
 /** The nearest door within `reach` of a point, towards `look` (zero: any side); ENF_NONE. */
 uint32_t sim_door_near(const Game *game, EnfVec3 at, EnfVec3 look, double reach);
 /** The first door that a body's straight way between two places meets; ENF_NONE. */

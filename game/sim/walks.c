@@ -120,7 +120,7 @@ static bool waits_for_door(Game *game, const SimGuard *guard, EnfVec3 to) {
     }
     const SimDoor *door = &game->doors[index];
     if (door->wanted == 0.0) {
-        sim_door_open(game, index, true);
+        sim_door_open(game, index, true, &feet);
     }
     return door->moving != 0;
 }
