@@ -26,7 +26,7 @@ class Kind:
 
 
 DOOR = Kind("rect", 1.5, 2.75)
-NARROW = Kind("rect", 1.1875, 2.25)
+NARROW = Kind("rect", 1.125, 2.25)
 GATE = Kind("arch", 2.0, 3.25, frame="stone_trim", tunnel="stone_trim")
 ARCH = Kind("arch", 1.75, 2.875, frame="stone_trim", tunnel="stone_trim")
 ARCADE = Kind("arch", 2.5, 3.75, frame="stone_trim", tunnel="stone_trim")

@@ -74,6 +74,13 @@ EnfVec3 bot_place_of(const GameBot *bot, uint32_t entity) {
                  : enf_v3(e->translation[0], e->translation[1], e->translation[2]);
 }
 
+/* The lowest height of what moves, or of nothing: the middle of a tall door is too high over the floor to be walked to. */
+static double foot_of(const GameBot *bot, uint32_t entity) {
+    uint32_t mover = mover_of(bot->game, entity);
+    bool lives = mover != ENF_NONE && enf_world_object(bot->game->world, mover).generation != 0;
+    return lives ? (double)enf_world_box(bot->game->world, mover).min.y + 0.1 : HUGE_VAL;
+}
+
 /* ---- commands --------------------------------------------------------------------------------------------------------------- */
 
 static EnfVec3 middle_of_cell(const EnfMap *map, uint32_t cell) {
@@ -96,6 +103,7 @@ static void set_out(GameBot *bot, const BotCommand *command) {
         bot_trip_start(bot, to, enf_map_locate(game->map, enf_add(to, up)), AT, false);
     } else {
         to = bot_place_of(bot, command->index);
+        to.y = fmin(to.y, foot_of(bot, command->index));
         uint32_t cell = enf_map_locate(game->map, to);
         bot_trip_start(bot, to, cell != ENF_NONE ? cell : enf_map_locate(game->map, enf_add(to, up)), BESIDE, false);
     }

@@ -55,6 +55,7 @@ typedef struct BotTrip {
     double least;    /**< metres of way that were left at best */
     uint32_t barred; /**< ticks without coming nearer, for the guards */
     uint32_t shun;   /**< a half-portal to be gone round, or ENF_NONE */
+    uint32_t locked; /**< how often a door did not open */
 } BotTrip;
 
 enum { BOT_MOMENTS = 72, BOT_GUARDS_MAX = 48, BOT_CRUMBS_MAX = 512 };

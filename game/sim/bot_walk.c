@@ -5,6 +5,7 @@
 #include <string.h>
 
 enum { TRIP_TICKS = 240 * ENF_TICK_RATE, SNEAK_TICKS = 900 * ENF_TICK_RATE, STILL_TICKS = 45, REST_TICKS = 30, TRIES = 24 };
+enum { LOCKED_TRIES = 3 };
 /* Degrees that it turns in a tick, at most; and that count as looking there. */
 #define TURN_RATE 7.0
 #define TURN_NEAR 1.0
@@ -81,7 +82,8 @@ static bool open_door(GameBot *bot, uint32_t door, EnfInput *input) {
         trip->pressed = false;
         return true;
     }
-    if (trip->pressed && d->locked && !d->moving) {
+    if (trip->pressed && d->locked && !d->moving &&
+        ++trip->locked >= LOCKED_TRIES) { /* the first may have taken a thing beside it */
         return false;
     }
     trip->pressed = aimed && !trip->pressed;
