@@ -12,7 +12,7 @@ enum { LOCKED_TRIES = 3 };
 /* Metres: a foothold is passed; a point of the route is passed; how far ahead a door is opened. */
 #define FOOT_NEAR 0.15
 #define GATE_NEAR 0.4
-#define DOOR_AHEAD 2.2
+#define DOOR_AHEAD 1.5
 #define LEAF_BESIDE 1.0
 
 static double flat(EnfVec3 a, EnfVec3 b) {
@@ -181,6 +181,10 @@ static void follow(GameBot *bot, EnfInput *input) {
     EnfVec3 eye = enf_character_eye(&bot->game->player.body), at = foot->path[ahead];
     bot_look(bot, enf_v3(at.x, eye.y + (at.y - feet.y), at.z), input);
     bot_head_for(bot, foot->path[trip->at], input);
+    if (trip->tries > 0 && trip->still == STILL_TICKS / 2 &&
+        !bot->sneak.on) { /* footholds lead over a rim that feet catch on */
+        input->buttons |= ENF_BUTTON_JUMP;
+    }
 }
 
 GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {

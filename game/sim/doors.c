@@ -132,7 +132,9 @@ uint32_t sim_door_near(const Game *game, EnfVec3 at, EnfVec3 look, double reach)
                            fmin(fmax(at.z, (double)box.min.z), (double)box.max.z));
         EnfVec3 way = enf_sub(p, at);
         double away = enf_length(way);
-        bool ahead = enf_dot(way, look) >= 0.5 * away * enf_length(look);
+        /* In the plan alone: who stands at a door and looks at its handle looks down more than ahead. */
+        bool ahead = way.x * look.x + way.z * look.z >=
+                     0.5 * sqrt((way.x * way.x + way.z * way.z) * (look.x * look.x + look.z * look.z));
         if (away < nearest && ahead) {
             nearest = away;
             best = i;
