@@ -116,6 +116,12 @@ double canvas_text_width(const CanvasStyle *style, const char *text) {
     return (units > 0.0 ? units - 3.0 - style->spread : 0.0) * style->size / FONT_CAPITAL;
 }
 
+CanvasStyle canvas_style_fitted(double size, uint32_t rgba, const char *text, double width) {
+    CanvasStyle style = canvas_style(size, rgba);
+    double needed = canvas_text_width(&style, text);
+    return needed > width && width > 0.0 ? canvas_style(size * width / needed, rgba) : style;
+}
+
 static void add_letter(Canvas *canvas, const CanvasStyle *style, const double at[2], char letter) {
     unsigned char code = (unsigned char)letter;
     int tile = (code < 32 || code > 126 ? '?' : code) - 32;

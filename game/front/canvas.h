@@ -45,6 +45,8 @@ typedef struct CanvasStyle {
     bool shadow;
 } CanvasStyle;
 CanvasStyle canvas_style(double size, uint32_t rgba);
+/** The same, smaller where the text would be wider than `width`: narrow windows, keys of long names. */
+CanvasStyle canvas_style_fitted(double size, uint32_t rgba, const char *text, double width);
 /** `y` is the base line. Characters that the font lacks show as '?'. */
 void canvas_text(Canvas *canvas, const CanvasStyle *style, double x, double y, const char *text);
 double canvas_text_width(const CanvasStyle *style, const char *text);

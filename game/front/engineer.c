@@ -256,10 +256,13 @@ static void draw_plan(App *app) {
 
 static void help(App *app) {
     Canvas *c = &app->canvas;
-    CanvasStyle style = canvas_style(9.5 * c->unit, 0xffa0a8b0u);
-    canvas_text(c, &style, 16.0 * c->unit, c->height - 10.0 * c->unit,
-                "F1 counters  F2 plan, windows  F3 freeze  F4 volumes  F5 kd-trees  F6 wireframe  F7 culling  F8 compare"
-                "  F9 noclip  F10 fly  F11 screen  F12 picture");
+    static const char text[] =
+        "F1 counters  F2 plan, windows  F3 freeze  F4 volumes  F5 kd-trees  F6 wireframe  F7 culling  F8 compare"
+        "  F9 noclip  F10 fly  F11 screen  F12 picture";
+    const double ground[4] = {0.0, c->height - 22.0 * c->unit, c->width, 22.0 * c->unit};
+    CanvasStyle style = canvas_style_fitted(9.5 * c->unit, 0xffc0c8d0u, text, c->width - 32.0 * c->unit);
+    canvas_rectangle(c, ground, GROUND);
+    canvas_text(c, &style, 16.0 * c->unit, c->height - 7.0 * c->unit, text);
 }
 
 void engineer_draw(App *app) {
@@ -272,7 +275,8 @@ void engineer_draw(App *app) {
     Column column = {c, canvas_style(10.5 * u, TEXT), 26.0 * u, 34.0 * u, 19.0 * u};
     if (e->counters || e->measures) {
         double lines = (e->counters ? 7.0 : 0.0) + (e->measures ? 5.0 : 0.0);
-        const double ground[4] = {16.0 * u, 16.0 * u, 560.0 * u, lines * column.line + 14.0 * u};
+        double beside = c->width - 428.0 * u, wide = e->plan && beside < 560.0 * u ? beside : 560.0 * u;
+        const double ground[4] = {16.0 * u, 16.0 * u, wide, lines * column.line + 14.0 * u};
         canvas_rectangle(c, ground, GROUND);
     }
     if (e->counters) {

@@ -28,19 +28,12 @@ static const char *key_name(const App *app, Action action) {
     return SDL_GetScancodeName((SDL_Scancode)app->settings.keys[action]);
 }
 
-/* A style in which the text is no wider than that: smaller, where it would be (narrow windows, keys of long names). */
-static CanvasStyle fitted(double size, uint32_t rgba, const char *text, double width) {
-    CanvasStyle style = canvas_style(size, rgba);
-    double needed = canvas_text_width(&style, text);
-    return needed > width && width > 0.0 ? canvas_style(size * width / needed, rgba) : style;
-}
-
 /* A line of text on a soft ground, in the middle. */
 static void caption(Canvas *c, double y, double size, uint32_t rgba, const char *text) {
     if (!*text) {
         return;
     }
-    CanvasStyle style = fitted(size, rgba, text, c->width - 4.4 * size);
+    CanvasStyle style = canvas_style_fitted(size, rgba, text, c->width - 4.4 * size);
     style.align = CANVAS_CENTER;
     double width = canvas_text_width(&style, text) + 2.4 * size;
     const double ground[4] = {0.5 * (c->width - width), y - 1.75 * size, width, 2.6 * size};
@@ -56,8 +49,8 @@ static void prompt(App *app, const GameState *s) {
 }
 
 /* An eye that opens as guards notice; and how bright it is where you stand. */
-static void visibility(Canvas *c, const GameState *s) {
-    double u = c->unit, x = 0.5 * c->width, y = c->height - 40.0 * u, wide = 120.0 * u;
+static void visibility(Canvas *c, const GameState *s, double foot) {
+    double u = c->unit, x = 0.5 * c->width, y = foot - 40.0 * u, wide = 120.0 * u;
     const double whole[4] = {x - 0.5 * wide, y, wide, 5.0 * u};
     const double lit[4] = {x - 0.5 * wide * s->light, y, wide * s->light, 5.0 * u};
     const double ground[4] = {whole[0] - 8.0 * u, y - 6.0 * u, wide + 16.0 * u, 32.0 * u};
@@ -89,8 +82,8 @@ static void visibility(Canvas *c, const GameState *s) {
     canvas_line(c, pupil, 2.0 * open * 0.6 + 2.0, color);
 }
 
-static void possessions(Canvas *c, const GameState *s, uint64_t tick) {
-    double u = c->unit, left = 24.0 * u, base = c->height - 30.0 * u;
+static void possessions(Canvas *c, const GameState *s, uint64_t tick, double foot) {
+    double u = c->unit, left = 24.0 * u, base = foot - 30.0 * u;
     char text[96];
     const double ground[4] = {0.0, base - (s->carried ? 76.0 : 48.0) * u, 260.0 * u,
                               c->height - base + (s->carried ? 76.0 : 48.0) * u};
@@ -187,6 +180,8 @@ static void map_screen(App *app, const GameState *s) {
             const double mark[4] = {at[0] - 5.0 * u, at[1] - 5.0 * u, 10.0 * u, 10.0 * u};
             canvas_frame(c, mark, 2.0 * u, 0xff60c890u);
             CanvasStyle way = canvas_style(10.0 * u, 0xff60c890u);
+            const double ground[4] = {at[0] + 7.0 * u, at[1] - 8.0 * u, canvas_text_width(&way, "way out") + 4.0 * u, 14.0 * u};
+            canvas_rectangle(c, ground, 0xd0100c0au);
             canvas_text(c, &way, at[0] + 9.0 * u, at[1] + 4.0 * u, "way out");
         }
     }
@@ -201,7 +196,7 @@ static void map_screen(App *app, const GameState *s) {
     snprintf(text, sizeof text,
              "Carry %u of %u exhibits to the way out. Full squares: on this storey. Guards see by light: keep to the dark.",
              s->wanted, s->exhibits);
-    style = fitted(12.0 * u, 0xffb0b8c0u, text, c->width - 80.0 * u);
+    style = canvas_style_fitted(12.0 * u, 0xffb0b8c0u, text, c->width - 80.0 * u);
     canvas_text(c, &style, 40.0 * u, c->height - 40.0 * u, text);
 }
 
@@ -258,14 +253,17 @@ void hud_draw(App *app) {
         if (app->map_shown) {
             map_screen(app, s);
         } else if (menu_page(app) == MENU_NONE) {
+            double foot = c->height - (app->engineer.counters ? 16.0 * c->unit : 0.0); /* its keys stand below */
             if (s->phase == GAME_PLAYING) {
                 crosshair(c, *s->prompt != '\0');
                 prompt(app, s);
                 caption(c, 0.16 * c->height, 16.0 * c->unit, PALE, s->message);
-                visibility(c, s);
-                objective(app, s);
+                visibility(c, s, foot);
+                if (!app->engineer.counters && !app->engineer.plan) {
+                    objective(app, s);
+                }
             }
-            possessions(c, s, app->over_tick);
+            possessions(c, s, app->over_tick, foot);
             over(app, s);
         }
         replay_lines(app);

@@ -49,6 +49,13 @@ key Escape
 expect "Esc pauses again" "menu pause"
 key Escape
 expect "Esc resumes" "mode playing menu none"
+xdotool windowfocus "$(xdotool search --maxdepth 0 --name '.*' | head -1)" # the screen's own window
+expect "losing the focus pauses" "menu pause"
+xdotool windowfocus "$window"
+key Escape
+expect "and Esc resumes" "mode playing menu none"
+key F11; sleep 1; key F11; sleep 1
+shot "the window, after it was the whole screen" 20000
 key space
 key Escape
 expect "pause again" "menu pause"
