@@ -422,10 +422,11 @@ static void search_phases(Search *search, int64_t first, int64_t last) {
     const EnfPathMotion *path = &search->motion->as.path;
     double from = path->seconds * ((double)first / (double)path->period_ticks);
     double to = path->seconds * ((double)last / (double)path->period_ticks);
-    for (double next; from < to; from = next) {
-        next = next_key(path, from, to);
+    while (from < to) {
+        double next = next_key(path, from, to);
         choose_keys(search, from);
         search_span(search, from, next);
+        from = next;
     }
     choose_keys(search, to);
     search_span(search, to, to);
