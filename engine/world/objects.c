@@ -6,13 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-/* What is kept of an object beside its motion. */
+/* All that is kept of an object, in one place: who is asked for after a long sleep is cold, and costs a page's look-up less. */
 typedef struct Object {
-    EnfBox3 local;
-    double max_speed;
-    uint64_t user;
     uint32_t generation; /* odd: alive */
     uint32_t mesh;
+    uint64_t user;
+    double max_speed;
+    EnfBox3 local;
+    EnfMotion motion;
 } Object;
 
 struct EnfWorld {
@@ -22,7 +23,6 @@ struct EnfWorld {
     bool trail; /* boxes hold the tick before, too */
     uint64_t evaluations, pushes;
     Object *objects;
-    EnfMotion *motions;
     uint32_t *free_indices; /* a stack of the dead */
     uint32_t limit, capacity, free_count;
     uint32_t *changes;
@@ -57,24 +57,19 @@ static bool grow(EnfWorld *world, void **array, uint32_t old_count, uint32_t new
 /* Room for `capacity` objects: all arrays grow, or none. */
 static bool reserve_objects(EnfWorld *world, uint32_t capacity) {
     Object *objects = enf_alloc(world->allocator, capacity, sizeof *objects);
-    EnfMotion *motions = enf_alloc(world->allocator, capacity, sizeof *motions);
     uint32_t *indices = enf_alloc(world->allocator, capacity, sizeof *indices);
-    if (objects == NULL || motions == NULL || indices == NULL) {
+    if (objects == NULL || indices == NULL) {
         enf_free(world->allocator, objects, capacity, sizeof *objects);
-        enf_free(world->allocator, motions, capacity, sizeof *motions);
         enf_free(world->allocator, indices, capacity, sizeof *indices);
         return false;
     }
     if (world->limit > 0) {
         memcpy(objects, world->objects, world->limit * sizeof *objects);
-        memcpy(motions, world->motions, world->limit * sizeof *motions);
         memcpy(indices, world->free_indices, world->free_count * sizeof *indices);
     }
     enf_free(world->allocator, world->objects, world->capacity, sizeof *objects);
-    enf_free(world->allocator, world->motions, world->capacity, sizeof *motions);
     enf_free(world->allocator, world->free_indices, world->capacity, sizeof *indices);
     world->objects = objects;
-    world->motions = motions;
     world->free_indices = indices;
     world->capacity = capacity;
     return true;
@@ -105,7 +100,6 @@ void enf_world_destroy(EnfWorld *world) {
     }
     const EnfAllocator *allocator = world->allocator;
     enf_free(allocator, world->objects, world->capacity, sizeof *world->objects);
-    enf_free(allocator, world->motions, world->capacity, sizeof *world->motions);
     enf_free(allocator, world->free_indices, world->capacity, sizeof *world->free_indices);
     enf_free(allocator, world->changes, world->change_capacity, sizeof *world->changes);
     enf_free(allocator, world, 1, sizeof *world);
@@ -142,7 +136,7 @@ static bool reserve_change(EnfWorld *world) {
 }
 
 static void note_change(EnfWorld *world, uint32_t index) {
-    world->motions[index].set_tick = (uint32_t)world->tick;
+    world->objects[index].motion.set_tick = (uint32_t)world->tick;
     world->changes[world->change_count++] = index;
 }
 
@@ -155,7 +149,7 @@ const uint32_t *enf_world_changes(const EnfWorld *world, uint32_t *count) {
 
 /* Free objects ask where they are, so that their bound counts from now. */
 static void ask_free(EnfWorld *world, uint32_t index) {
-    EnfMotion *motion = &world->motions[index];
+    EnfMotion *motion = &world->objects[index].motion;
     if (motion->kind == ENF_MOTION_FREE && motion->as.free.ask != NULL) {
         world->evaluations++;
         enf_free_push(motion, world->tick, motion->as.free.ask(motion->as.free.user, world->tick));
@@ -164,7 +158,7 @@ static void ask_free(EnfWorld *world, uint32_t index) {
 
 /* Asking may cost a skeleton: once a tick. */
 static void refresh_free(EnfWorld *world, uint32_t index) {
-    if (world->motions[index].as.free.push_tick != world->tick) {
+    if (world->objects[index].motion.as.free.push_tick != world->tick) {
         ask_free(world, index);
     }
 }
@@ -184,7 +178,7 @@ EnfObjectId enf_world_add(EnfWorld *world, const EnfObjectDef *def, EnfError *er
     object->max_speed = def->motion.kind == ENF_MOTION_FREE ? def->motion.as.free.max_speed : def->max_speed;
     object->mesh = def->mesh;
     object->user = def->user;
-    world->motions[id.index] = def->motion;
+    world->objects[id.index].motion = def->motion;
     ask_free(world, id.index);
     id.generation = object->generation;
     note_change(world, id.index);
@@ -211,7 +205,7 @@ bool enf_world_set_motion(EnfWorld *world, EnfObjectId id, const EnfMotion *moti
     if (!enf_world_alive(world, id) || !reserve_change(world)) {
         return false;
     }
-    world->motions[id.index] = *motion;
+    world->objects[id.index].motion = *motion;
     if (motion->kind == ENF_MOTION_FREE) {
         world->objects[id.index].max_speed = motion->as.free.max_speed;
     }
@@ -224,7 +218,7 @@ bool enf_world_swing(EnfWorld *world, EnfObjectId id, double target) {
     if (!enf_world_alive(world, id) || !reserve_change(world)) {
         return false;
     }
-    enf_swing_set(&world->motions[id.index], world->tick, target);
+    enf_swing_set(&world->objects[id.index].motion, world->tick, target);
     note_change(world, id.index);
     return true;
 }
@@ -250,17 +244,17 @@ uint32_t enf_world_mesh(const EnfWorld *world, uint32_t index) {
 
 const EnfMotion *enf_world_motion(const EnfWorld *world, uint32_t index) {
     ENF_ASSERT(index < world->limit);
-    return &world->motions[index];
+    return &world->objects[index].motion;
 }
 
 EnfPose enf_world_pose(EnfWorld *world, uint32_t index) {
-    const EnfMotion *motion = &world->motions[index];
+    const EnfMotion *motion = &world->objects[index].motion;
     if (motion->kind == ENF_MOTION_FREE) {
         refresh_free(world, index);
         return motion->as.free.pose;
     }
     world->evaluations++;
-    return enf_motion_state(&world->motions[index], world->tick);
+    return enf_motion_state(&world->objects[index].motion, world->tick);
 }
 
 /* ---- trails ----------------------------------------------------------------------------------------------------- */
@@ -276,7 +270,7 @@ bool enf_world_has_trail(const EnfWorld *world) {
 /* Half the tick is kept: 2^32 ticks after its event an object is taken for one just set, for one tick, and is blended from where it
  * is: every box agrees. */
 static bool has_last(const EnfWorld *world, uint32_t index) {
-    return world->trail && world->motions[index].set_tick != (uint32_t)world->tick;
+    return world->trail && world->objects[index].motion.set_tick != (uint32_t)world->tick;
 }
 
 bool enf_world_last_pose(EnfWorld *world, uint32_t index, EnfPose *pose) {
@@ -285,7 +279,7 @@ bool enf_world_last_pose(EnfWorld *world, uint32_t index, EnfPose *pose) {
         return false;
     }
     world->evaluations++;
-    *pose = enf_motion_state(&world->motions[index], world->tick - 1);
+    *pose = enf_motion_state(&world->objects[index].motion, world->tick - 1);
     return true;
 }
 
@@ -303,7 +297,7 @@ static EnfBox3 pose_box(const EnfWorld *world, uint32_t index, EnfPose pose) {
  * follow one another, volumes made since the first of them hold the last: what is left out is more than the rounding of boxes,
  * where a tick's way is not below a millionth of the coordinates. */
 static bool within_speed(const EnfWorld *world, uint32_t index, EnfPose pose) {
-    const EnfFreeMotion *free = &world->motions[index].as.free;
+    const EnfFreeMotion *free = &world->objects[index].motion.as.free;
     EnfBox3 before = pose_box(world, index, free->pose), now = pose_box(world, index, pose);
     if (memcmp(&before, &now, sizeof now) == 0) {
         return true;
@@ -317,14 +311,14 @@ static bool within_speed(const EnfWorld *world, uint32_t index, EnfPose pose) {
 }
 
 bool enf_world_push(EnfWorld *world, EnfObjectId id, const EnfPose *pose) {
-    if (!enf_world_alive(world, id) || world->motions[id.index].kind != ENF_MOTION_FREE ||
-        world->motions[id.index].as.free.ask != NULL || !reserve_change(world)) {
+    if (!enf_world_alive(world, id) || world->objects[id.index].motion.kind != ENF_MOTION_FREE ||
+        world->objects[id.index].motion.as.free.ask != NULL || !reserve_change(world)) {
         return false;
     }
     if (!within_speed(world, id.index, *pose)) {
         world->changes[world->change_count++] = id.index;
     }
-    enf_free_push(&world->motions[id.index], world->tick, *pose);
+    enf_free_push(&world->objects[id.index].motion, world->tick, *pose);
     world->pushes++;
     return true;
 }
@@ -351,15 +345,15 @@ EnfBox3f enf_world_seen_box(EnfWorld *world, uint32_t index) {
 }
 
 EnfBox3f enf_world_bound(EnfWorld *world, uint32_t index, int64_t until) {
-    if (world->motions[index].kind == ENF_MOTION_FREE) {
+    if (world->objects[index].motion.kind == ENF_MOTION_FREE) {
         refresh_free(world, index);
     }
-    EnfBox3 box = enf_motion_bound(&world->motions[index], &world->objects[index].local, world->tick, until);
+    EnfBox3 box = enf_motion_bound(&world->objects[index].motion, &world->objects[index].local, world->tick, until);
     return enf_box3f_outward(with_trail(world, index, box));
 }
 
 bool enf_world_is_confined(const EnfWorld *world, uint32_t index) {
-    return enf_world_is_free(world, index) && world->motions[index].as.free.confined;
+    return enf_world_is_free(world, index) && world->objects[index].motion.as.free.confined;
 }
 
 #if defined(__GNUC__)
@@ -370,17 +364,14 @@ bool enf_world_is_confined(const EnfWorld *world, uint32_t index) {
 
 void enf_world_prefetch(const EnfWorld *world, uint32_t index) {
     const char *object = (const char *)&world->objects[index];
-    const char *motion = (const char *)&world->motions[index];
-    PREFETCH(object);
-    PREFETCH(object + sizeof(Object) - 1);
-    for (size_t at = 0; at < sizeof(EnfMotion); at += 64) {
-        PREFETCH(motion + at);
+    for (size_t at = 0; at < sizeof(Object); at += 64) {
+        PREFETCH(object + at);
     }
-    PREFETCH(motion + sizeof(EnfMotion) - 1);
+    PREFETCH(object + sizeof(Object) - 1);
 }
 
 void enf_world_prefetch_named(const EnfWorld *world, uint32_t index) {
-    const EnfMotion *motion = &world->motions[index];
+    const EnfMotion *motion = &world->objects[index].motion;
     switch (motion->kind) {
     case ENF_MOTION_PATH:
         PREFETCH(motion->as.path.translation.times);
@@ -406,7 +397,7 @@ double enf_world_max_speed(const EnfWorld *world, uint32_t index) {
 }
 
 bool enf_world_is_free(const EnfWorld *world, uint32_t index) {
-    return world->motions[index].kind == ENF_MOTION_FREE;
+    return world->objects[index].motion.kind == ENF_MOTION_FREE;
 }
 
 uint64_t enf_world_evaluations(const EnfWorld *world) {
