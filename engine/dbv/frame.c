@@ -123,6 +123,7 @@ static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
             index->failed = true;
             return NULL;
         }
+        index->counters.appeared += volume->exposed_frame != index->frame - 1 ? 1U : 0U;
         volume->exposed_frame = index->frame;
         volume->exposure = index->exposure_count++;
         EnfDbvExposure exposure = {object, false, enf_world_seen_box(index->world, object)};
@@ -336,6 +337,7 @@ static bool ascending(const EnfDbvIndex *index, uint32_t a, uint32_t b) {
 
 static void add_counters(EnfDbvCounters *total, const EnfDbvCounters *frame) {
     total->exposed += frame->exposed;
+    total->appeared += frame->appeared;
     total->drawn += frame->drawn;
     total->expired += frame->expired;
     total->late += frame->late;

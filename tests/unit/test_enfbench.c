@@ -19,7 +19,7 @@ static int run(const char *arguments, char **text) {
     return status;
 }
 
-enum { LOST = 7, OVERDRAW = 9, OBJECTS = 14, HASH = 15, EVALUATED = 23, AVOIDED = 27, LATE = 28, COLUMNS = 30 };
+enum { LOST = 7, OVERDRAW = 9, OBJECTS = 14, HASH = 15, EVALUATED = 23, AVOIDED = 27, LATE = 28, COLUMNS = 36 };
 
 /* Splits a line of the CSV at commas outside quotes. */
 static uint32_t split(char *line, char *columns[COLUMNS]) {

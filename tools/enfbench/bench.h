@@ -24,6 +24,10 @@ typedef struct BenchRow {
     double mean_us, max_us, ns_object; /**< moving objects: of frames; the mean divided by the objects that are not drawn */
     double evaluated, exposed, expired, reinserted, avoided, late; /**< of an EnfDbvIndex, a frame; `late` in all */
     double bytes_object;                                           /**< of the index */
+    /** What the slowest frame (that of max_us) did: volumes exposed, of these such as were not in the frame before, expired, hung. */
+    double worst_exposed, worst_appeared, worst_expired, worst_reinserted;
+    /** The median frame exposes that many; and the slowest of the frames that expose no more: what is hidden costs that at most. */
+    double median_exposed, calm_max_us;
 } BenchRow;
 
 /** A row with every optional column at -1. */

@@ -23,6 +23,7 @@ MoversDef bench_movers_default(void) {
     def.door_width = 1.25;
     def.leaf = 4.0;
     def.occluders = true;
+    def.rounds = 1;
     def.budget = 20.0;
     def.motion = MOVERS_FREE;
     def.eye = MOVERS_WALK;
@@ -56,6 +57,7 @@ bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
     def->doors = bench_knob(knobs, "doors", def->doors, 0.0, 100.0);
     def->door_width = bench_knob(knobs, "door_width", def->door_width, 0.25, 7.5);
     def->leaf = bench_knob(knobs, "leaf", def->leaf, 0.5, 64.0);
+    def->rounds = (uint32_t)bench_knob(knobs, "rounds", def->rounds, 1.0, 100.0);
     def->budget = bench_knob(knobs, "budget", def->budget, 0.001, 1e6);
     static const char *const occluders[] = {"static", "all"};
     int occluding = word(bench_knob_text(knobs, "occluders", occluders[def->occluders]), occluders, 2);

@@ -43,7 +43,8 @@ typedef struct Runner {
     Plain *plain;
     Greene *greene;
     uint32_t *all; /* zbuffer: everything */
-    double *times, spent_us;
+    MoversFrame *times;
+    double spent_us;
     double *look_times;                /* greene: visibility alone */
     double drawn, lost, listed, shown; /* listed, shown: objects of compared frames, where pixels are what is compared */
     uint32_t frames, timed;            /* timed: of the frames, those that count for time */
@@ -233,9 +234,14 @@ static bool turn(Case *current, Runner *runner, uint32_t frame) {
     const uint32_t *list = find(scene, runner, frame, &current->windows, &count);
     double spent = bench_now_us() - start;
     cpu = bench_cpu_us() - cpu;
-    spent = cpu < spent ? cpu : spent;                            /* another program may have had the processor in between */
-    if (frame % scene->def.check != 1 || scene->def.check == 1) { /* a check has swept the caches */
-        runner->times[runner->timed++] = spent;
+    spent = cpu < spent ? cpu : spent; /* another program may have had the processor in between */
+    if (scene->def.check <= 2 ||
+        frame % scene->def.check > 1) { /* a check, of this technique or of one before it, sweeps the caches */
+        MoversFrame *timed = &runner->times[runner->timed++];
+        timed->us = spent;
+        if (runner->index != NULL) {
+            bench_frame_counters(timed, runner->index);
+        }
     }
     runner->frames++;
     runner->spent_us += spent;
@@ -311,13 +317,7 @@ static void add_row(BenchRun *run, const char *experiment, const char *name, con
     uint32_t skip = runner->timed > 180 ? 120 : runner->timed / 3;
     uint32_t rest = runner->timed - skip;
     double hidden = (double)def->movers - row.objects;
-    row.mean_us = 0.0;
-    for (uint32_t i = skip; i < runner->timed; i++) {
-        row.mean_us += runner->times[i] / (double)rest;
-    }
-    row.max_us = bench_quantile(runner->times + skip, rest, 1.0);
-    row.p99_us = bench_quantile(runner->times + skip, rest, 0.99);
-    row.median_us = bench_quantile(runner->times + skip, rest, 0.5);
+    bench_frames_row(runner->times + skip, rest, runner->index != NULL, &row);
     row.ns_object = hidden > 0.0 ? 1000.0 * row.mean_us / hidden : -1.0;
     bench_rows_add(&run->rows, &row);
 }
@@ -386,6 +386,37 @@ static bool run_frames(BenchRun *run, Case *current, Runner *runners, uint32_t c
     return ok;
 }
 
+static bool open_runners(const MoversScene *scene, Runner *runners, uint32_t *count) {
+    bool ok = true;
+    *count = 0;
+    for (uint32_t t = 0; t < TECHNIQUES && ok; t++) {
+        if (is_chosen(scene->def.techniques, techniques[t].name)) {
+            ok = open_runner(&runners[(*count)++], t, scene);
+        }
+    }
+    return ok;
+}
+
+static void close_runners(Runner *runners, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++) {
+        close_runner(&runners[i]);
+    }
+}
+
+/* The same frames once more, everything made anew: the work is the same, what the machine does besides is not. */
+static bool run_again(BenchRun *run, Case *current, Runner *runners, uint32_t count) {
+    Runner others[TECHNIQUES];
+    uint32_t other_count = 0;
+    bool ok = open_runners(&current->scene, others, &other_count) && run_frames(run, current, others, other_count);
+    for (uint32_t i = 0; i < count && ok; i++) {
+        uint32_t both = others[i].timed < runners[i].timed ? others[i].timed : runners[i].timed;
+        bench_frames_merge(runners[i].times, others[i].times, both);
+        runners[i].lost += others[i].lost;
+    }
+    close_runners(others, other_count);
+    return ok;
+}
+
 static void add_rows(BenchRun *run, const char *experiment, const char *name, const Case *current, Runner *runners,
                      uint32_t count) {
     uint32_t first = run->rows.count;
@@ -408,21 +439,16 @@ bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, 
         bench_movers_close(&current.scene);
         return true;
     }
-    bool ok = true;
-    for (uint32_t t = 0; t < TECHNIQUES && ok; t++) {
-        if (is_chosen(def->techniques, techniques[t].name)) {
-            ok = open_runner(&runners[count++], t, &current.scene);
-        }
+    bool ok = open_runners(&current.scene, runners, &count) && run_frames(run, &current, runners, count);
+    for (uint32_t round = 1; round < def->rounds && ok; round++) {
+        ok = run_again(run, &current, runners, count);
     }
-    ok = ok && run_frames(run, &current, runners, count);
     if (ok) {
         add_rows(run, experiment, name, &current, runners, count);
     } else {
         fprintf(stderr, "enfbench: no memory for %u objects\n", def->movers);
     }
-    for (uint32_t i = 0; i < count; i++) {
-        close_runner(&runners[i]);
-    }
+    close_runners(runners, count);
     free(current.windows.items);
     bench_truth_destroy(current.truth);
     bench_movers_close(&current.scene);

@@ -15,7 +15,7 @@ BENCH(S2, bench_s2, "the same, test scene 2: a small cube around a thing on a ta
       "rooms=64 boxes=5745 frames=108000 seed=1 policy=all")
 #define MOVERS_KNOBS \
     "rooms=1024 movers=10000 visible=0 speed=1.4 motion=free policy=all eye=walk doors=75 " \
-    "door_width=1.25 polygons=0 period=64 leaf=4 occluders=all frames=600 seed=1 check=50 budget=20"
+    "door_width=1.25 polygons=0 period=64 leaf=4 occluders=all frames=600 seed=1 check=50 rounds=1 budget=20"
 BENCH(movers, bench_movers, "moving objects: finding what is seen, every policy against plain ways, at the sizes of other engines", MOVERS_KNOBS)
 BENCH(million, bench_million, "the same, a million in 10,000 rooms: every motion; and 1,000 visible with few and many hidden", MOVERS_KNOBS)
 BENCH(losing, bench_losing, "the same, where volumes have little to win: fast movers, open plan, nothing hidden", MOVERS_KNOBS)

@@ -25,9 +25,10 @@ typedef struct MoversDef {
     double speed;       /**< metres a second, at most */
     double doors;       /**< percent of the inner walls */
     double door_width;
-    double leaf;    /**< `hierarchical-z`, `tbv`: side of the octree's leaves, metres */
-    bool occluders; /**< of these two: moving objects hide others too */
-    double budget;  /**< seconds that one technique may take; then it takes no more turns */
+    double leaf;     /**< `hierarchical-z`, `tbv`: side of the octree's leaves, metres */
+    bool occluders;  /**< of these two: moving objects hide others too */
+    uint32_t rounds; /**< so often the same frames are run; a frame's time is its least */
+    double budget;   /**< seconds that one technique may take; then it takes no more turns */
     MoversMotion motion;
     MoversEye eye;
     char techniques[BENCH_TEXT]; /**< names, separated by commas */
@@ -131,6 +132,17 @@ Plain *bench_plain_create(const MoversScene *scene);
 void bench_plain_destroy(Plain *plain);
 /** The objects that it thinks are shown, in no order. */
 const uint32_t *bench_plain_frame(Plain *plain, const EnfView *view, int64_t tick, uint32_t *count);
+
+/** What a frame took and what an index did in it. */
+typedef struct MoversFrame {
+    double us;
+    uint32_t exposed, appeared, expired, reinserted;
+} MoversFrame;
+void bench_frame_counters(MoversFrame *frame, const EnfDbvIndex *index);
+/** The same frames once more: the lesser time of each is kept. */
+void bench_frames_merge(MoversFrame *frames, const MoversFrame *others, uint32_t count);
+/** Fills in the columns on time; sorts `frames`. `volumes`: those on what the slowest frame did, too. */
+void bench_frames_row(MoversFrame *frames, uint32_t count, bool volumes, BenchRow *row);
 
 /** Knobs that every experiment on movers has, over what `def` says. False after a message. */
 bool bench_movers_knobs(BenchRun *run, MoversDef *def);

@@ -34,7 +34,13 @@
     X(reinserted)                                                                                                              \
     X(avoided)                                                                                                                 \
     X(late)                                                                                                                    \
-    X(bytes_object)
+    X(bytes_object)                                                                                                            \
+    X(calm_max_us)                                                                                                             \
+    X(median_exposed)                                                                                                          \
+    X(worst_exposed)                                                                                                           \
+    X(worst_appeared)                                                                                                          \
+    X(worst_expired)                                                                                                           \
+    X(worst_reinserted)
 
 static void number(FILE *out, double value, const char *absent) {
     if (value < 0.0) {
@@ -149,6 +155,17 @@ static void cell(double value, int width, int digits) {
     }
 }
 
+/* What made the slowest frame slow: what came into sight, or what nobody sees. */
+static void print_worst(const BenchRow *row) {
+    if (row->calm_max_us >= 0.0) {
+        printf("%-8s   slowest frame %.1f us, %.1f medians: %.0f volumes exposed (%.0f of them new in it; in the median frame "
+               "%.0f), "
+               "%.0f expired, %.0f hung; of frames that expose no more than the median: %.1f medians\n",
+               "", row->max_us, row->max_us / row->median_us, row->worst_exposed, row->worst_appeared, row->median_exposed,
+               row->worst_expired, row->worst_reinserted, row->calm_max_us / row->median_us);
+    }
+}
+
 void bench_print_table(const BenchRows *rows) {
     printf("%-8s %-18s %-18s %-22s %6s %10s %10s %9s %9s %8s %7s %8s %8s %8s %8s %7s %7s  %s\n", "exp", "scene", "technique",
            "params", "frames", "median us", "p99 us", "lost obj", "lost px", "overdraw", "cells", "portals", "nodes", "boxes",
@@ -169,5 +186,6 @@ void bench_print_table(const BenchRows *rows) {
         cell(row->ratio_median, 7, 2);
         cell(row->ratio_best, 7, 2);
         printf("  %016" PRIx64 "\n", row->hash);
+        print_worst(row);
     }
 }

@@ -16,6 +16,8 @@ BenchRow bench_row(const char *experiment, const char *scene, const char *techni
     row.cells = row.portals = row.nodes = row.boxes = row.objects = -1.0;
     row.mean_us = row.max_us = row.ns_object = row.evaluated = row.exposed = row.expired = -1.0;
     row.reinserted = row.avoided = row.late = row.bytes_object = -1.0;
+    row.worst_exposed = row.worst_appeared = row.worst_expired = row.worst_reinserted = -1.0;
+    row.median_exposed = row.calm_max_us = -1.0;
     row.vis_median_us = row.vis_p99_us = row.ratio_median = row.ratio_best = -1.0;
     return row;
 }

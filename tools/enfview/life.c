@@ -109,7 +109,7 @@ void life_run(Viewer *viewer, int64_t tick) {
 /* ---- counters --------------------------------------------------------------------------------------------------- */
 
 /* X(counter of EnfDbvCounters). */
-#define DBV_COUNTERS(X) X(exposed) X(drawn) X(expired) X(reinserted) X(avoided) X(late) X(tested) X(nodes)
+#define DBV_COUNTERS(X) X(exposed) X(appeared) X(drawn) X(expired) X(reinserted) X(avoided) X(late) X(tested) X(nodes)
 
 static void report_counters(EnfReport *report, const char *key, const EnfDbvCounters *counters, uint64_t evaluated) {
     enf_report_object(report, key);

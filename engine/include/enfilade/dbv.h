@@ -38,6 +38,7 @@ EnfDbvDef enf_dbv_def_default(void);
 
 typedef struct EnfDbvCounters {
     uint64_t exposed;    /**< volumes seen, their objects evaluated */
+    uint64_t appeared;   /**< of these, the ones that were not exposed in the frame before */
     uint64_t drawn;      /**< of these, with the object itself in a window */
     uint64_t expired;    /**< volumes that ended unseen */
     uint64_t late;       /**< volumes exposed after their expiry tick: must stay 0 */
