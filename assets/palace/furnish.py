@@ -60,12 +60,33 @@ LANES = {  # ways between doors that the recorded walk does not take and that fu
 }
 
 
+NARROW = {  # rooms in which furniture, put as it fits, would leave a body no way between two doors
+    "PorcelainCabinet",
+    "MapCabinet",
+    "Library",
+    "WritingRoom",
+    "PainterStudio",
+    "PlasterWorkshop",
+    "KingsCloset",
+    "PrivateStudy",
+    "Nursery",
+    "GovernessRoom",
+    "WineCellar",
+    "BarrelVault",
+    "CoalCellar",
+    "CornerStudy",
+    "Vestiary",
+}
+
+
 def furnish(scene, room, feet):
     """Puts everything into one room; `feet` is the walker's way, which stays free. Returns how much of it moves."""
     placer = Placer(scene, room, feet)
     for a, b in zip(LANES.get(room.name, []), LANES.get(room.name, [])[1:]):
         steps = int(math.dist(a, b) / 0.25) + 1
         placer.walk += [lerp(a, b, k / steps) for k in range(steps + 1)]
+    if room.name in NARROW:
+        placer.keep_lanes()
     structure.build(placer)
     if room.name == "Library":
         placer.keep_free(*life.LIFT_AT, life.LIFT_SIZE / 2 + 0.9)

@@ -47,10 +47,9 @@ class Placer:
         self.taken = {i: [] for i in range(len(self.walls))}  # per wall: (u0, u1, z0, z1) in use
         self.count = self.lights = 0  # pieces and lights put so far; they number the objects
         self.candles = night.Candles(room)
-        doors = []
+        self.doors = []  # points of the floor before doorways
         for wall, own in zip(room.walls, self.walls):
-            doors += self._mark_openings(wall, own)
-        self._keep_lanes(doors)
+            self.doors += self._mark_openings(wall, own)
 
     def _mark_openings(self, wall, own):
         """Keeps openings clear; returns a point of the floor before each doorway."""
@@ -65,10 +64,10 @@ class Placer:
                 doors.append(add(own.point((u0 + u1) / 2, 0)[:2], scale(own.inward, CLEAR_OF_DOOR)))
         return doors
 
-    def _keep_lanes(self, doors):
+    def keep_lanes(self):
         """From every doorway a straight lane stays free to the walker's way, or to the middle where he does not come."""
         ways = self.walk or [self.centre]
-        for door in doors:
+        for door in self.doors:
             goal = min(ways, key=lambda p: (math.dist(p, door), p))
             steps = int(math.dist(door, goal) / LANE_STEP) + 1
             self.walk += [lerp(door, goal, k / steps) for k in range(steps + 1)]
