@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { RECORDINGS_MAX = 256, FAST_TICKS = 2000, LOOKED_TICKS = 600, RECORDINGS_WANTED = 12 };
+enum { RECORDINGS_MAX = 256, FAST_TICKS = 2000, LOOKED_TICKS = 600, RECORDINGS_WANTED = 12, MOST_BYTES = 300 * 1024 };
 
 /* ---- maps and recordings ---------------------------------------------------------------------------------------- */
 
@@ -252,6 +252,53 @@ static void nothing_is_missed(void **state) {
     }
 }
 
+/* A whole game won past guards who are awake, six exhibits; one lost; ten minutes in one; and none is a burden to the repository. */
+static void games_end_as_they_should(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *start, *ends;
+        uint64_t ticks;
+    } recordings[] = {{"palace_won.enfreplay", "exhibits=0", "won in Vestibule-room; carries 0, 6 of 6 carried out", 0},
+                      {"palace_lost.enfreplay", "exhibits=0", "lost in ", 0},
+                      {"palace_long.enfreplay", "", "playing in ", 36000}};
+    if (ENF_TEST_SLOW || getenv("ENF_REPLAY_TICKS")) {
+        printf("left to faster builds\n");
+        return;
+    }
+    for (size_t i = 0; i < sizeof recordings / sizeof *recordings; i++) {
+        EnfWalk walk;
+        if (!enf_walk_open(&walk, &maps, recordings[i].name)) {
+            continue;
+        }
+        EnfReplayCursor cursor = enf_replay_begin(&walk.replay);
+        const EnfReplayTick *tick;
+        uint64_t ticks = 0;
+        char text[160];
+        for (; (tick = enf_replay_next(&cursor)) != NULL; ticks++) {
+            sim_step(walk.sim, &tick->input);
+        }
+        sim_describe(walk.sim, text);
+        printf("%s: %s: %llu ticks, %s\n", recordings[i].name, walk.replay.header.start, (unsigned long long)ticks, text);
+        assert_true(strncmp(text, recordings[i].ends, strlen(recordings[i].ends)) == 0);
+        assert_true(recordings[i].start[0] == '\0' || strcmp(walk.replay.header.start, recordings[i].start) == 0);
+        assert_true(ticks >= recordings[i].ticks);
+        enf_walk_close(&walk);
+    }
+}
+
+static void recordings_are_small(void **state) {
+    (void)state;
+    for (uint32_t i = 0; i < name_count; i++) {
+        char path[1024];
+        size_t size;
+        snprintf(path, sizeof path, "tests/replay/%s", names[i]);
+        free(enf_test_read_file(enf_test_source_path(path), &size));
+        if (size > MOST_BYTES) {
+            fail_msg("%s has %zu bytes, more than %d", names[i], size, MOST_BYTES);
+        }
+    }
+}
+
 /* A recording lists itself, and the list names no other. */
 static void list_is_complete(void **state) {
     (void)state;
@@ -279,10 +326,9 @@ static void list_is_complete(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(list_is_complete),
-    cmocka_unit_test(every_recording_is_walked_again),
-    cmocka_unit_test(looking_changes_nothing),
-    cmocka_unit_test(nothing_is_missed),
+    cmocka_unit_test(list_is_complete),         cmocka_unit_test(every_recording_is_walked_again),
+    cmocka_unit_test(looking_changes_nothing),  cmocka_unit_test(nothing_is_missed),
+    cmocka_unit_test(games_end_as_they_should), cmocka_unit_test(recordings_are_small),
 };
 
 int main(int argc, char **argv) {

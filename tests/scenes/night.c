@@ -56,13 +56,14 @@ static EnfMover mover(EnfMaker *m, EnfMoverKind kind, uint32_t of, EnfBox3 box, 
     return made;
 }
 
-static void add_door(EnfNight *night, bool locked) {
+static void add_door(EnfNight *night, bool locked, bool swings) {
     EnfMaker *m = night->maker;
     const char *extras = locked ? "{\"targetname\":\"door\",\"locked\":\"brass\"}" : "{\"targetname\":\"door\"}";
     uint32_t e = entity(m, "func_door_rotating", enf_v3(8, 0, 3.5), night->west, extras);
     EnfMover door = mover(m, ENF_MOVER_HINGE, e, (EnfBox3){{-0.03125, 0, 0}, {0.03125, 2.25, 1}}, "leaf");
     door.pivot[0] = 8, door.pivot[2] = 3.5;
     door.high = 1.5f;
+    door.low = swings ? -1.5f : 0.0f;
     door.rate = 2.0f;
     door.portal = night->portal;
     door.flags = ENF_MOVER_SOLID | (locked ? (uint32_t)ENF_MOVER_LOCKED : 0u);
@@ -151,7 +152,7 @@ bool enf_night_create(EnfNight *night, const EnfNightDef *def, EnfError *error) 
     exhibit.flags = ENF_MOVER_CARRY;
     enf_maker_mover(m, &exhibit);
     if (def->door) {
-        add_door(night, def->locked);
+        add_door(night, def->locked, def->swings);
     }
     if (def->guard) {
         add_guard(night);

@@ -7,6 +7,7 @@
 
 typedef struct EnfNightDef {
     bool door;   /**< a hinged leaf in the doorway, "door" */
+    bool swings; /**< it goes both ways, away from who opens it */
     bool locked; /**< it wants the key "brass", which lies in the west at (2, 0.8, 6.5) as "key" */
     bool guard;  /**< walks z 1 to 7 and back at x 13 in the east, 8 s a way, "guard" */
     bool

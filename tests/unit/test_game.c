@@ -145,6 +145,29 @@ static void test_a_door_does_not_shut_on_somebody(void **state) {
     close_play(&play);
 }
 
+/* The middle of a leaf in the plane x = 8 after a script, along x. */
+static double leaf_after(const char *script) {
+    Play play;
+    open_play(&play, (EnfNightDef){.door = true, .swings = true}, false);
+    run(&play, script, NULL, NULL, MOST);
+    uint32_t door = ENF_NONE;
+    for (uint32_t i = 0; i < play.night.map->movers_count; i++) {
+        door = play.night.map->movers[i].kind == ENF_MOVER_HINGE ? i : door;
+    }
+    assert_true(door != ENF_NONE);
+    EnfBox3f box = enf_world_box(game_world(play.game), door);
+    close_play(&play);
+    return 0.5 * ((double)box.min.x + (double)box.max.x);
+}
+
+static void test_a_door_swings_away_from_who_opens_it(void **state) {
+    (void)state;
+    assert_true(leaf_after("enfbot 1\ngoto point 6.5 0 4\npress door\nwait 1\n") > 8.3);
+    assert_true(leaf_after("enfbot 1\ngoto point 12 0 4\ngoto point 9.5 0 4\nwait 8\npress door\nwait 1\n") < 7.7);
+    /* Close by, with an eye on the sill: it is the door ahead that is meant. */
+    assert_true(leaf_after("enfbot 1\ngoto point 7.4 0 4\nlook at 8 0 4\nuse\nwait 1\n") > 8.3);
+}
+
 static void test_a_lock_wants_its_key(void **state) {
     (void)state;
     Play play;
@@ -363,6 +386,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_a_theft_is_won),
     cmocka_unit_test(test_a_door_opens_its_portal_and_shuts_it),
     cmocka_unit_test(test_a_door_does_not_shut_on_somebody),
+    cmocka_unit_test(test_a_door_swings_away_from_who_opens_it),
     cmocka_unit_test(test_a_lock_wants_its_key),
     cmocka_unit_test(test_a_bot_says_why_it_fails),
     cmocka_unit_test(test_an_elevator_carries),
