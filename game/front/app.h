@@ -55,6 +55,7 @@ typedef struct Input {
     SDL_GameController *pad;
     double pad_forward, pad_right, pad_yaw, pad_pitch; /**< -1..1 */
     uint32_t pad_buttons;
+    bool pad_used;      /**< the pad was the last to be used, not keys or mouse: what prompts name */
     bool pad_pushed[2]; /**< in a menu: the left stick stands aside, left or right; up or down */
 } Input;
 void input_release(Input *input); /**< as if every key was let go */

@@ -154,6 +154,7 @@ static void pad_removed(App *app, SDL_JoystickID which) {
     if (pad && SDL_JoystickInstanceID(SDL_GameControllerGetJoystick(pad)) == which) {
         SDL_GameControllerClose(pad);
         app->input.pad = NULL;
+        app->input.pad_used = false;
         input_release(&app->input);
         hud_notice(app, "Gamepad removed");
         pause_game(app);
@@ -306,9 +307,11 @@ static void handle(App *app, const SDL_Event *event) {
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
+        app->input.pad_used = false;
         key(app, &event->key);
         break;
     case SDL_MOUSEMOTION:
+        app->input.pad_used = false;
         motion(app, &event->motion);
         break;
     case SDL_MOUSEBUTTONDOWN:
@@ -325,10 +328,12 @@ static void handle(App *app, const SDL_Event *event) {
         pad_removed(app, event->cdevice.which);
         break;
     case SDL_CONTROLLERAXISMOTION:
+        app->input.pad_used = app->input.pad_used || abs(event->caxis.value) > 16000;
         pad_axis(app, &event->caxis);
         break;
     case SDL_CONTROLLERBUTTONDOWN:
     case SDL_CONTROLLERBUTTONUP:
+        app->input.pad_used = true;
         pad_button(app, &event->cbutton);
         break;
     case SDL_AUDIODEVICEADDED:

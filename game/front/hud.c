@@ -24,8 +24,16 @@ static void crosshair(Canvas *c, bool warm) {
     canvas_line(c, dot, r, warm ? 0xff80d0ffu : 0xc0ffffffu);
 }
 
+/* Of the device that was used last. */
 static const char *key_name(const App *app, Action action) {
-    return SDL_GetScancodeName((SDL_Scancode)app->settings.keys[action]);
+    static const char *const pad[ACTION_COUNT] = {[ACTION_FORWARD] = "Left stick",
+                                                  [ACTION_JUMP] = "A",
+                                                  [ACTION_CROUCH] = "B",
+                                                  [ACTION_RUN] = "Right trigger",
+                                                  [ACTION_USE] = "X",
+                                                  [ACTION_DROP] = "Y",
+                                                  [ACTION_MAP] = "Back"};
+    return app->input.pad_used && pad[action] ? pad[action] : SDL_GetScancodeName((SDL_Scancode)app->settings.keys[action]);
 }
 
 /* A line of text on a soft ground, in the middle. */
@@ -211,11 +219,13 @@ static void objective(App *app, const GameState *s) {
         caption(c, 0.24 * c->height, 17.0 * c->unit, PALE, text);
     }
     if (s->tick < 15 * ENF_TICK_RATE && !app->play.replays) {
-        snprintf(text, sizeof text,
-                 "%.20s %.20s %.20s %.20s: walk    %.20s: run    %.20s: crouch    %.20s: take, open    %.20s: map    Esc: menu",
-                 key_name(app, ACTION_FORWARD), key_name(app, ACTION_LEFT), key_name(app, ACTION_BACK),
-                 key_name(app, ACTION_RIGHT), key_name(app, ACTION_RUN), key_name(app, ACTION_CROUCH),
-                 key_name(app, ACTION_USE), key_name(app, ACTION_MAP));
+        char walk[96];
+        snprintf(walk, sizeof walk, "%.20s %.20s %.20s %.20s", key_name(app, ACTION_FORWARD), key_name(app, ACTION_LEFT),
+                 key_name(app, ACTION_BACK), key_name(app, ACTION_RIGHT));
+        bool pad = app->input.pad_used;
+        snprintf(text, sizeof text, "%.90s: walk    %.20s: run    %.20s: crouch    %.20s: take, open    %.20s: map    %s: menu",
+                 pad ? key_name(app, ACTION_FORWARD) : walk, key_name(app, ACTION_RUN), key_name(app, ACTION_CROUCH),
+                 key_name(app, ACTION_USE), key_name(app, ACTION_MAP), pad ? "Start" : "Esc");
         caption(c, 0.33 * c->height, 12.0 * c->unit, PALE, text);
     }
 }

@@ -356,10 +356,11 @@ static const char *subtitle(const App *app, char text[96]) {
 static void draw_hint(App *app) {
     Canvas *c = &app->canvas;
     CanvasStyle style = canvas_style(11.0 * c->unit, 0xffa0a8b0u);
+    bool last = menu_page(app) == MENU_TITLE || app->over_shown, pad = app->input.pad_used; /* nothing lies behind it */
     const char *text = app->menu.waiting >= 0 ? "Press the key that shall do this. Esc: leave it as it is"
-                       : menu_page(app) == MENU_TITLE || app->over_shown
-                           ? "Arrows or mouse: choose    Enter: do it"
-                           : "Arrows or mouse: choose, change    Enter: do it    Esc: back";
+                       : pad                  ? "Stick: choose, change    A: do it    B: back"
+                       : last                 ? "Arrows or mouse: choose    Enter: do it"
+                                              : "Arrows or mouse: choose, change    Enter: do it    Esc: back";
     canvas_text(c, &style, 64.0 * c->unit, c->height - 28.0 * c->unit, text);
 }
 

@@ -188,6 +188,7 @@ static void test_a_gamepad_plays(void **state) {
     double yaw = shown()->yaw_deg;
     pad_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, -32768); /* ahead: towards -z, where the player looks at first */
     frames(30);
+    assert_true(app.input.pad_used);
     double walked = enf_length(enf_sub(shown()->eye_ws, before));
     assert_true(walked > 0.5 && shown()->eye_ws.z < before.z - 0.5);
     pad_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, 0);
@@ -223,6 +224,8 @@ static void test_a_gamepad_plays(void **state) {
     pad_button(pad, SDL_CONTROLLER_BUTTON_BACK);
     assert_true(app.map_shown);
     pad_button(pad, SDL_CONTROLLER_BUTTON_BACK);
+    press(SDL_SCANCODE_D);
+    assert_false(app.input.pad_used); /* prompts name keys again */
     app_close(&app);
 }
 
@@ -450,6 +453,26 @@ static void test_a_place_sounds_until_it_is_left(void **state) {
     audio_free(&audio);
 }
 
+/* From where a game in the palace begins: what the level's nodes say of sounds, found and heard. */
+static void test_the_palace_sounds(void **state) {
+    (void)state;
+    uint32_t heard[GAME_SOUND_COUNT] = {0}, count;
+    open_app(palace(), NULL, 128, 72);
+    for (int i = 0; i < 20 * ENF_TICK_RATE; i++) {
+        modes_tick(&app);
+        const GameSpeaker *speakers = game_speakers(app.play.game, &count);
+        for (uint32_t k = 0; k < count; k++) {
+            heard[speakers[k].sound.kind]++;
+        }
+    }
+    printf("in 20 s: water %u, ticks %u, tocks %u, birds %u\n", heard[GAME_SOUND_FOUNTAIN], heard[GAME_SOUND_CLOCK_TICKS],
+           heard[GAME_SOUND_CLOCK_TOCKS], heard[GAME_SOUND_BIRD]);
+    assert_int_equal(heard[GAME_SOUND_FOUNTAIN], 20 * ENF_TICK_RATE / 6);
+    assert_true(heard[GAME_SOUND_CLOCK_TICKS] > 5 && heard[GAME_SOUND_CLOCK_TOCKS] > 5);
+    assert_true(heard[GAME_SOUND_BIRD] > 0);
+    app_close(&app);
+}
+
 /* ---- what it costs ----------------------------------------------------------------------------------------------------- */
 
 /* Keys and mouse by chance; what ends the game is answered. */
@@ -550,6 +573,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_the_screen_of_a_game_lost),
     cmocka_unit_test(test_the_elevator_by_the_use_key),
     cmocka_unit_test(test_a_place_sounds_until_it_is_left),
+    cmocka_unit_test(test_the_palace_sounds),
     cmocka_unit_test(test_warm_frames_call_no_heap),
     cmocka_unit_test(test_a_hundred_restarts_keep_the_memory),
     cmocka_unit_test(test_new_games_keep_the_memory),
