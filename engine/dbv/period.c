@@ -18,6 +18,8 @@
 #define APPROACH_LEAST 0.2
 #define APPROACH_DOUBLING 0.03
 #define APPROACH_CROWD 8U
+/* Few rooms hold a volume that walks, so that it is not worth asking for what would fly so many rooms' lengths anyway. */
+#define WALK 0.35
 /* What is shortened ends in that many ticks and a part of so many more, each object at its own. */
 #define SHORT_PERIODS 32U
 /* The first volumes, made before anything was seen, end over so many ticks. */
@@ -194,8 +196,8 @@ static void hang(EnfDbvIndex *index, uint32_t object, uint32_t period) {
     enf_dbv_hang(index, object, bound_for(index, object, period));
 }
 
-/* A volume that hangs only where the object can walk to, if it lasts longer than `period`. Few rooms hold it, so that it is not
- * worth asking for what flies farther than a room is long. */
+/* A volume that hangs only where the object can walk to, if it lasts a good deal longer than `period`: a flood and several places
+ * cost as much as a renewal. */
 static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period, const Here *here) {
     EnfDbvReach reach;
     double speed = enf_world_max_speed(index->world, object);
@@ -206,7 +208,7 @@ static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period, 
     uint32_t longer = ever ? index->def.max_period_ticks : clamp_period(index, 0.99 * reach.limit / speed * ENF_TICK_RATE);
     longer = spread(longer, object);
     double far = 1.001 * speed * (double)longer / ENF_TICK_RATE;
-    if (longer <= period || !(far < reach.limit || ever)) {
+    if (longer - longer / 3 < period || !(far < reach.limit || ever)) {
         return false;
     }
     EnfDbvVolume *volume = &index->volumes[object];
@@ -229,7 +231,7 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
     }
     enf_dbv_wheel_remove(index, object);
     double way = enf_world_max_speed(index->world, object) * (double)period / ENF_TICK_RATE;
-    bool walks = index->portal_boxes != NULL && here.gap >= 0.0 && way < index->room;
+    bool walks = index->portal_boxes != NULL && here.gap >= 0.0 && way < WALK * index->room;
     if (walks && enf_world_is_confined(index->world, object) && hang_reaching(index, object, period, &here)) {
         enf_dbv_wheel_add(index, object);
         return;
