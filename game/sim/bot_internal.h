@@ -68,6 +68,7 @@ typedef struct BotSneak {
     EnfVec3 crumbs[BOT_CRUMBS_MAX];            /**< where it came from, oldest first */
     EnfVec3 to;                                /**< where it goes instead */
     uint32_t crumb_count, care, gait, decided; /**< gait: ENF_BUTTON_*; decided: ticks ago */
+    uint32_t flees;                            /**< ticks for which it goes on fleeing the same way */
     uint32_t waited;                           /**< ticks */
 } BotSneak;
 
@@ -100,6 +101,10 @@ GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why);
 void bot_head_for(const GameBot *bot, EnfVec3 at, EnfInput *input);
 /** Go on along foot.path and way, or keep away from guards; where it does not go on, `input` is filled in. */
 BotCare bot_sneak(GameBot *bot, EnfInput *input);
+/** Stands before a door that is shut, or opens, on the straight way to a place, and uses it; false if there is none. */
+bool bot_opens_door(GameBot *bot, EnfVec3 to, EnfInput *input);
+/** Will it decide anew in this tick? Then `way` is to be the way from here. */
+bool bot_sneak_decides(const GameBot *bot);
 /** Turns towards a place, at a person's speed; true once it looks there. */
 bool bot_look(const GameBot *bot, EnfVec3 at, EnfInput *input);
 

@@ -10,15 +10,18 @@ enum { MOMENT_TICKS = 15, DECIDE_EVERY = 12, LINE_MAX = 160, ASIDES = 24 };
 enum { GO_MOMENTS = 24 };
 /* Ticks of no way past the guards, until another way is tried. */
 enum { BARRED_TICKS = 40 * ENF_TICK_RATE };
+/* Decisions for which it flees one way. */
+enum { FLEES = 12 };
 /* What may be noticed on the way: at first, and after a long wait on it. */
-#define SAFE 0.12
-#define SAFE_MOST 0.36
+#define SAFE 0.1
+#define SAFE_MOST (SIM_NOTICE_WONDERS - 0.08)
 #define PATIENCE (60.0 * ENF_TICK_RATE) /* ticks of waiting from the one to the other */
 #define GUARD_NEAR 22.0
 #define CRUMB 0.5
 #define GUARD_EYE 1.65
-/* Of a guard off its round, so near nobody lingers, seen or not. */
-#define HUNTED 18.0
+#define SEARCH_PACE 2.5 /* m/s */
+#define SUSPECTED 14.0  /* metres from one who wonders or searches */
+#define SUM_SHARE 0.1   /* of all that all notice, beside the most that one does */
 
 /* Places one after another, and how they are walked. */
 typedef struct Line {
@@ -38,7 +41,18 @@ static uint32_t guards_of(const GameBot *bot) {
     return bot->game->guard_count < BOT_GUARDS_MAX ? bot->game->guard_count : BOT_GUARDS_MAX;
 }
 
-/* Where the guards' eyes will be: on their rounds for certain; who is off it is taken to stay, and to look at the bot. */
+/* Who looks for the bot is taken to come straight to where it is now, and to look at it. */
+static SimEye come(const GameBot *bot, const SimGuard *guard, SimEye eye, int64_t tick) {
+    EnfVec3 way = enf_sub(bot->game->player.body.position, eye.at);
+    double away = sqrt(way.x * way.x + way.z * way.z), pace = SEARCH_PACE * MOMENT_TICKS / ENF_TICK_RATE;
+    bool waits = guard->mood == GAME_GUARD_RETURNS || (guard->mood == GAME_GUARD_WONDERS && tick < guard->until);
+    if (!waits && away > pace) {
+        eye.at = enf_add(eye.at, enf_scale(enf_v3(way.x, 0.0, way.z), pace / away));
+    }
+    return eye;
+}
+
+/* Where the guards' eyes will be: on their rounds for certain. */
 static void foresee(GameBot *bot) {
     const Game *game = bot->game;
     BotSneak *sneak = &bot->sneak;
@@ -48,14 +62,16 @@ static void foresee(GameBot *bot) {
         SimEye eye = {sim_guard_eye(guard), guard->yaw_deg, guard->body.cell};
         sneak->looks[g] = guard->mood != GAME_GUARD_ROUND || motion->kind != ENF_MOTION_PATH;
         for (int k = 0; k < BOT_MOMENTS; k++) {
-            if (!sneak->looks[g]) {
+            SimEye next = eye;
+            if (sneak->looks[g]) {
+                next = come(bot, guard, eye, sim_tick(game) + (k + 1) * MOMENT_TICKS);
+            } else {
                 EnfPose pose = enf_motion_state(motion, sim_world_tick(game) + (k + 1) * MOMENT_TICKS);
-                EnfVec3 at = enf_add(pose.position, enf_v3(0.0, GUARD_EYE, 0.0));
-                eye.cell = enf_map_track(game->map, eye.cell, eye.at, at);
-                eye.at = at;
-                eye.yaw_deg = sim_yaw(pose.rotation);
+                next.at = enf_add(pose.position, enf_v3(0.0, GUARD_EYE, 0.0));
+                next.yaw_deg = sim_yaw(pose.rotation);
             }
-            sneak->eyes[k][g] = eye;
+            next.cell = enf_map_track(game->map, eye.cell, eye.at, next.at);
+            eye = sneak->eyes[k][g] = next;
         }
     }
 }
@@ -103,11 +119,23 @@ static double noticed(GameBot *bot, const SimEye *eye, bool looks, const EnfChar
     return more;
 }
 
+/* Who wonders or searches will come nearer: it is well to be elsewhere. */
+static double suspicion(const GameBot *bot, EnfVec3 at) {
+    double worst = 0.0;
+    for (uint32_t g = 0; g < guards_of(bot); g++) {
+        const SimGuard *guard = &bot->game->guards[g];
+        bool looks_for = guard->mood == GAME_GUARD_WONDERS || guard->mood == GAME_GUARD_SEARCHES;
+        double near = 1.0 - enf_length(enf_sub(guard->body.position, at)) / SUSPECTED;
+        worst = looks_for ? fmax(worst, 0.3 * near) : worst;
+    }
+    return worst;
+}
+
 /* The most that any guard will have noticed if the bot does so: what is far off counts less, for it can still be mended. */
 static double risk(GameBot *bot, const Line *line, uint32_t moments) {
     const Game *game = bot->game;
     EnfCharacter body = game->player.body;
-    double notice[BOT_GUARDS_MAX], worst = 0.0;
+    double notice[BOT_GUARDS_MAX], worst = 0.0, sum = 0.0;
     uint32_t next = 0;
     body.height = line->gait & ENF_BUTTON_CROUCH ? body.def.crouch_height : body.def.height;
     for (uint32_t g = 0; g < guards_of(bot); g++) {
@@ -121,11 +149,12 @@ static double risk(GameBot *bot, const Line *line, uint32_t moments) {
             double more = noticed(bot, &bot->sneak.eyes[k][g], bot->sneak.looks[g], &body, line, moves);
             notice[g] = fmax(0.0, notice[g] + more);
             if (more > 0.0) {
-                worst = fmax(worst, notice[g] * (1.0 - 0.5 * (double)k / GO_MOMENTS * (moments == GO_MOMENTS)));
+                sum += more;
+                worst = fmax(worst, notice[g] * (1.0 - 0.4 * (double)k / GO_MOMENTS * (moments == GO_MOMENTS)));
             }
         }
     }
-    return worst;
+    return worst + SUM_SHARE * sum + suspicion(bot, body.position);
 }
 
 /* ---- what could be done ---------------------------------------------------------------------------------------------- */
@@ -135,7 +164,8 @@ static void line_on(const GameBot *bot, Line *line) {
     for (uint32_t i = bot->trip.at; i < bot->foot.path_count && line->count < LINE_MAX; i++) {
         line->at[line->count++] = bot->foot.path[i];
     }
-    for (uint32_t i = bot->way.next + 1; i < bot->way.count && line->count < LINE_MAX; i++) {
+    uint32_t first = bot->foot.path_count > bot->trip.at ? bot->way.next + 1 : bot->way.next; /* foot leads to the next stop */
+    for (uint32_t i = first; i < bot->way.count && line->count < LINE_MAX; i++) {
         line->at[line->count++] = bot->way.at[i];
     }
 }
@@ -249,6 +279,27 @@ static void look_for_another_way(GameBot *bot) {
     bot->foot.path_count = 0;
 }
 
+/* How near anybody comes to the next dozen metres of a line, run along: the hunter runs too, the others walk their rounds. */
+static double room_on(const GameBot *bot, const Line *line, const SimGuard *hunter) {
+    EnfVec3 at = bot->game->player.body.position;
+    uint32_t next = 0;
+    double least = 0.0;
+    for (uint32_t k = 1; k <= 12 && advance(line, &next, &at, 1.0); k++) {
+        double room = enf_length(enf_sub(at, hunter->body.position)) - 0.7 * k;
+        for (uint32_t g = 0; g < guards_of(bot); g++) {
+            bool other = &bot->game->guards[g] != hunter;
+            room = other ? fmin(room, enf_length(enf_sub(at, bot->sneak.eyes[k][g].at)) - 1.0) : room;
+        }
+        least = k == 1 ? room : fmin(least, room);
+    }
+    return least;
+}
+
+/* Metres from a guard of that mind within which there is nothing left but to run. */
+static double hunted_within(GameGuardMood mood) {
+    return mood == GAME_GUARD_CHASES ? 18.0 : mood == GAME_GUARD_SEARCHES ? 8.0 : mood == GAME_GUARD_WONDERS ? 4.0 : 0.0;
+}
+
 /* Somebody is after the bot: it runs, on or back, whichever leads away from him. False if nobody is. */
 static bool flee(GameBot *bot) {
     const Game *game = bot->game;
@@ -256,26 +307,28 @@ static bool flee(GameBot *bot) {
     const SimGuard *hunter = NULL;
     for (uint32_t g = 0; g < game->guard_count; g++) {
         double away = enf_length(enf_sub(game->guards[g].body.position, feet));
-        bool hunts = game->guards[g].mood == GAME_GUARD_CHASES && away < HUNTED;
+        bool hunts = away < hunted_within((GameGuardMood)game->guards[g].mood);
         hunter = hunts && (!hunter || away < enf_length(enf_sub(hunter->body.position, feet))) ? &game->guards[g] : hunter;
     }
     if (!hunter) {
+        bot->sneak.flees = 0;
         return false;
     }
     Line lines[2];
     double away[2];
     line_on(bot, &lines[0]);
     line_back(bot, &lines[1]);
-    for (int i = 0; i < 2; i++) { /* how near he comes to the next ten metres of it */
-        EnfVec3 at = feet;
-        uint32_t next = 0;
-        away[i] = 0.0;
-        for (int k = 1; k <= 10 && advance(&lines[i], &next, &at, 1.0); k++) {
-            double ahead = enf_length(enf_sub(at, hunter->body.position)) - 0.7 * k;
-            away[i] = k == 1 ? ahead : fmin(away[i], ahead);
-        }
+    for (int i = 0; i < 2; i++) {
+        away[i] = room_on(bot, &lines[i], hunter);
     }
-    settle_on(&bot->sneak, away[1] > away[0] + 0.5 ? BOT_BACKS : BOT_GOES, ENF_BUTTON_RUN);
+    bool backs = bot->sneak.care == BOT_BACKS;
+    bool keeps = bot->sneak.flees > 0 && away[backs ? 1 : 0] > 1.5; /* to and fro is to stand */
+    bot->sneak.flees = keeps ? bot->sneak.flees - 1 : FLEES;
+    settle_on(&bot->sneak,
+              keeps                     ? (backs ? BOT_BACKS : BOT_GOES)
+              : away[1] > away[0] + 0.5 ? BOT_BACKS
+                                        : BOT_GOES,
+              ENF_BUTTON_RUN);
     return true;
 }
 
@@ -301,14 +354,21 @@ static void go_back(GameBot *bot, EnfInput *input) {
     while (sneak->crumb_count > 0 && flat(sneak->crumbs[sneak->crumb_count - 1], feet) < 0.3) {
         sneak->crumb_count--;
     }
-    if (sneak->crumb_count > 0) {
+    uint32_t ahead = sneak->crumb_count > 4 ? sneak->crumb_count - 4 : 0;
+    if (sneak->crumb_count > 0 && !bot_opens_door(bot, sneak->crumbs[ahead], input)) {
         bot_head_for(bot, sneak->crumbs[sneak->crumb_count - 1], input);
     }
 }
 
+bool bot_sneak_decides(const GameBot *bot) {
+    return bot->sneak.decided % DECIDE_EVERY == 0;
+}
+
 BotCare bot_sneak(GameBot *bot, EnfInput *input) {
     BotSneak *sneak = &bot->sneak;
-    if (sneak->decided++ % DECIDE_EVERY == 0) {
+    bool decides = bot_sneak_decides(bot);
+    sneak->decided++;
+    if (decides) {
         double safe = fmin(SAFE_MOST, SAFE + (SAFE_MOST - SAFE) * (double)sneak->waited / PATIENCE);
         foresee(bot);
         look_for_another_way(bot);
@@ -331,7 +391,7 @@ BotCare bot_sneak(GameBot *bot, EnfInput *input) {
         bot_head_for(bot, sneak->to, input);
     }
     if (care != BOT_STANDS) {
-        bot->foot.path_count = sneak->decided % DECIDE_EVERY == 0 ? 0 : bot->foot.path_count; /* a new way from there */
+        bot->foot.path_count = 0; /* a new way from there */
     }
     return care;
 }

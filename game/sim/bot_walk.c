@@ -91,6 +91,11 @@ static bool open_door(GameBot *bot, uint32_t door, EnfInput *input) {
     return true;
 }
 
+bool bot_opens_door(GameBot *bot, EnfVec3 to, EnfInput *input) {
+    uint32_t door = door_before(bot, to);
+    return door != ENF_NONE && open_door(bot, door, input);
+}
+
 /* ---- the way ------------------------------------------------------------------------------------------------------------------ */
 
 /* The next place of the route that is not reached yet; `*last` if it is the end. */
@@ -196,6 +201,16 @@ GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
     if (++trip->ticks > (bot->sneak.on ? SNEAK_TICKS : TRIP_TICKS)) {
         return GAME_BOT_FAILED;
     }
+    if (bot->sneak.on) {
+        bool last;
+        if (bot_sneak_decides(bot)) {
+            next_stop(bot, &last);
+        }
+        if (bot_sneak(bot, input) != BOT_GOES) {
+            trip->rest = 0;
+            return GAME_BOT_GOES_ON;
+        }
+    }
     if (trip->rest > 0) {
         trip->rest--;
         return GAME_BOT_GOES_ON;
@@ -203,7 +218,7 @@ GameBotNews bot_trip_step(GameBot *bot, EnfInput *input, const char **why) {
     if (bot->foot.path_count == 0 && !plan(bot, input, why)) {
         return GAME_BOT_FAILED;
     }
-    if (bot->foot.path_count > 0 && (!bot->sneak.on || bot_sneak(bot, input) == BOT_GOES)) {
+    if (bot->foot.path_count > 0) {
         follow(bot, input);
     }
     return GAME_BOT_GOES_ON;

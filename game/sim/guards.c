@@ -5,14 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { LOOK_EVERY = 4, WONDER_TICKS = 150, SEARCH_TICKS = 480, RETURN_TICKS = 1800, WHISTLE_EVERY = 200 };
+enum { LOOK_EVERY = 4, WONDER_TICKS = 150, SEARCH_TICKS = 360, RETURN_TICKS = 1800, WHISTLE_EVERY = 200 };
 /* Ticks in which it still knows where somebody went who is out of its sight: round the corner, through the door. */
 enum { MEMORY_TICKS = 45 };
 /* Ticks of looking round at a place. */
 enum { ROUND_LOOK_TICKS = 150 };
 /* Ticks from the start in which nobody is seen: one comes in by the door and looks about. */
 enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
-#define CHASE_SPEED 3.6
+#define CHASE_SPEED 3.4
 #define SEARCH_SPEED 2.5
 #define RETURN_SPEED 1.4
 #define CATCH_DISTANCE 0.95
@@ -21,6 +21,7 @@ enum { GRACE_TICKS = 5 * ENF_TICK_RATE };
 /* ---- start ------------------------------------------------------------------------------------------------------------ */
 
 void sim_guards_start(Game *game) {
+    bool again = game->guard_count > 0; /* a restart: where each begins is known, and a dozen places need not be located */
     game->guard_count = 0;
     game->foot_guard = ENF_NONE;
     for (uint32_t i = 0; i < game->map->movers_count; i++) {
@@ -29,6 +30,7 @@ void sim_guards_start(Game *game) {
             continue;
         }
         SimGuard *guard = &game->guards[game->guard_count++];
+        uint32_t cell = again ? guard->start_cell : ENF_NONE;
         memset(guard, 0, sizeof *guard);
         guard->object = enf_world_object(game->world, i);
         guard->mover = i;
@@ -39,11 +41,12 @@ void sim_guards_start(Game *game) {
         guard->body.def.walk_speed = CHASE_SPEED;
         guard->body.height = guard->body.def.height;
         guard->body.object = guard->object.index;
-        guard->body.cell = ENF_NONE;
-        guard->body.position = enf_v3(0.0, -1e6, 0.0);
+        guard->body.cell = cell;
+        guard->body.position = enf_world_pose(game->world, guard->object.index).position;
         sim_walk_start(guard);
         enf_collider_set_solid(game->collider, guard->object.index, false);
         sim_guard_follow(game, guard);
+        guard->start_cell = guard->body.cell;
     }
 }
 
@@ -92,7 +95,8 @@ static void hear(Game *game, SimGuard *guard, EnfVec3 at, double loud) {
     }
     think_of(guard, at, sim_feet_cell(game, &game->player.body));
     if (guard->mood == GAME_GUARD_CHASES || guard->mood == GAME_GUARD_SEARCHES) {
-        guard->until = sim_tick(game) + SEARCH_TICKS;
+        bool chases = guard->mood == GAME_GUARD_CHASES; /* a search ends in its time, heard or not */
+        guard->until = chases ? sim_tick(game) + SEARCH_TICKS : guard->until;
         guard->turned = 0;
         return;
     }
@@ -137,6 +141,7 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
     guard->notice = fmin(1.0, fmax(0.0, guard->notice));
     if (guard->sees) {
         guard->seen_at = sim_tick(game);
+        think_of(guard, game->player.body.position, sim_feet_cell(game, &game->player.body));
     }
     if (guard->notice >= 1.0 || (guard->sees && guard->mood == GAME_GUARD_CHASES)) {
         chase(game, guard);

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define SIGHT_FAR 20.0
+#define SIGHT_FAR 17.0
 #define SIGHT_FOV 100.0
 #define FELT 0.9 /* metres in the plan */
 enum { SIGHT_WIDTH = 160, SIGHT_HEIGHT = 120 };
@@ -126,7 +126,7 @@ double sim_sight(Game *game, const SimEye *of, const EnfCharacter *body) {
     EnfVec3 eye = of->at, look = sim_look(of->yaw_deg, 0.0);
     EnfVec3 feet = body->position, way = enf_sub(enf_add(feet, enf_v3(0.0, 0.6 * body->height, 0.0)), eye);
     double away = enf_length(way);
-    if (away > SIGHT_FAR || enf_dot(way, look) < 0.45 * away) {
+    if (away > SIGHT_FAR || enf_dot(way, look) < 0.5 * away) {
         return 0.0;
     }
     EnfView view = enf_view_default();
@@ -145,6 +145,6 @@ double sim_sight(Game *game, const SimEye *of, const EnfCharacter *body) {
     }
     double light = sim_light(game, body->cell, enf_add(feet, enf_v3(0.0, 1.0, 0.0)));
     double near = 1.0 - away / SIGHT_FAR;
-    double ahead = enf_dot(way, look) > 0.75 * away ? 1.0 : 0.45;
+    double ahead = enf_dot(way, look) > 0.75 * away ? 1.0 : 0.5;
     return shows * ahead * near * near * (away < 2.5 ? fmax(light, 0.5) : light);
 }

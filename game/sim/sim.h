@@ -18,17 +18,17 @@ enum {
 #define SIM_REACH 2.0
 
 /** Metres along the ways at which a step is heard. */
-#define SIM_HEARD_WALK 7.0
+#define SIM_HEARD_WALK 6.0
 #define SIM_HEARD_RUN 16.0
 #define SIM_HEARD_CROUCH 1.5
 /** What a guard notices, of 1 that makes it chase: a second of somebody fully seen nearby adds the rate; a step heard nearby adds
  *  HEARD, up to HEARD_MOST; from WONDERS on it stops and looks; unseen, it fades by so much a second. */
-#define SIM_NOTICE_RATE 1.0
+#define SIM_NOTICE_RATE 0.6
 #define SIM_NOTICE_CROUCHED 0.6 /* of it, who crouches */
-#define SIM_NOTICE_HEARD 0.25
+#define SIM_NOTICE_HEARD 0.3
 #define SIM_NOTICE_HEARD_MOST 0.6
 #define SIM_NOTICE_WONDERS 0.4
-#define SIM_NOTICE_FADES 0.12
+#define SIM_NOTICE_FADES 0.15
 
 /* ---- the state --------------------------------------------------------------------------------------------------- */
 
@@ -96,7 +96,8 @@ typedef struct SimWalk {
     uint32_t tries;       /**< of this stop that led nowhere */
     uint32_t shun, shuns; /**< a half-portal not to be gone through, for it led nowhere; how many there were */
     uint32_t wants;       /**< 1: a track is to be searched */
-    uint32_t door;        /**< 1: stands before a door that opens */
+    uint32_t door;        /**< ticks before a door that opens */
+    uint32_t lost;        /**< 1: no way leads there */
 } SimWalk;
 
 typedef struct SimGuard {
@@ -111,7 +112,8 @@ typedef struct SimGuard {
     int64_t until;     /**< tick at which the mood ends */
     int64_t start;     /**< tick at which its round's path began: time 0 */
     double stride;
-    uint32_t sees, last_cell, home_cell, turned; /**< turned: ticks of looking round */
+    uint32_t sees, last_cell, home_cell, start_cell;
+    uint32_t turned, pad; /**< turned: ticks of looking round */
     SimWalk walk;
 } SimGuard;
 

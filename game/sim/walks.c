@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { WAY_EVERY = 20, LOOK_AHEAD_EVERY = 16, STILL_TICKS = 24, TRIES = 3, SHUNS = 3 };
+enum { WAY_EVERY = 20, LOOK_AHEAD_EVERY = 16, STILL_TICKS = 24, TRIES = 3, SHUNS = 3, DOOR_TICKS = 90 };
 /* Footholds settled in a tick, some 20 sweeps each; of one search. */
 enum { PLACES_A_TICK = 3, PLACES = 2500 };
-#define WALK_SPEED 3.6  /* what a wish of 1 is */
+#define WALK_SPEED 3.4  /* what a wish of 1 is */
 #define TURN_RATE 200.0 /* degrees a second */
 #define STOP_NEAR 0.35
 #define FOOT_NEAR 0.13
@@ -50,7 +50,7 @@ static void head_for_stop(Game *game, SimGuard *guard) {
     SimWalk *walk = &guard->walk;
     walk->track_count = walk->track_next = walk->still = 0;
     walk->nearest = HUGE_VAL;
-    walk->wants = !sim_foot_straight(game->collider, &guard->body, walk->way.at[walk->way.next], STRAIGHT);
+    walk->wants = !walk->lost && !sim_foot_straight(game->collider, &guard->body, walk->way.at[walk->way.next], STRAIGHT);
 }
 
 /* A new way. Who stands in a doorway already does not go back to the point before it. */
@@ -59,7 +59,8 @@ static void find_way(Game *game, SimGuard *guard, const SimErrand *errand) {
     SimWay *way = &walk->way;
     SimErrand asked = *errand;
     asked.shun = walk->shun;
-    if (!sim_route(game, &asked, way)) {
+    walk->lost = !sim_route(game, &asked, way);
+    if (walk->lost) { /* straight, and no search for a place that may be nowhere */
         way->at[0] = errand->to;
         way->gate[0] = ENF_NONE;
         way->count = 1;
@@ -88,7 +89,8 @@ static void update_way(Game *game, SimGuard *guard, const SimErrand *errand) {
         walk->to = errand->to;
     }
     bool last = walk->way.next + 1 == walk->way.count, moved = enf_length(enf_sub(walk->track_to, errand->to)) > 1.0;
-    if (last && moved && tick % LOOK_AHEAD_EVERY == 0 && !walk->wants) { /* until there is another, the old track will do */
+    if (last && moved && tick % LOOK_AHEAD_EVERY == 0 && !walk->wants &&
+        !walk->lost) { /* until there is another, the old track will do */
         walk->wants = !sim_foot_straight(game->collider, &guard->body, errand->to, STRAIGHT);
         walk->track_count = walk->wants ? walk->track_count : 0;
         walk->track_to = errand->to;
@@ -174,7 +176,7 @@ static SimGoNews watch(SimGuard *guard, EnfVec3 to) {
     }
     walk->still = walk->track_count = 0;
     walk->nearest = HUGE_VAL;
-    walk->wants = 1;
+    walk->wants = !walk->lost;
     return ++walk->tries > TRIES ? give_up_stop(walk) : SIM_GO_ON;
 }
 
@@ -208,11 +210,12 @@ SimGoNews sim_walk(Game *game, SimGuard *guard, const SimErrand *errand, double 
     }
     EnfVec3 to = next_place(walk, feet);
     bool stands = waits_for_door(game, guard, to);
-    if (walk->door && !stands) {
+    if (walk->door > 0 && !stands) {
         head_for_stop(game, guard);
     }
-    walk->door = stands;
-    walk->wants = walk->wants && !stands; /* what is to be searched is the way past the open leaf */
+    walk->door = stands ? walk->door + 1 : 0;
+    stands = stands && walk->door < DOOR_TICKS; /* somebody may stand behind it, so that it never opens */
+    walk->wants = walk->wants && !stands;       /* what is to be searched is the way past the open leaf */
     stands = stands || (walk->wants && !can_go_on(game, guard, to));
     sim_turn_to(guard, to);
     step_towards(game, guard, stands ? feet : to, speed);

@@ -225,7 +225,7 @@ static void test_a_guard_catches_whom_it_sees(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.guard = true}, false);
-    run(&play, "enfbot 1\nwait 5\ngoto point 10 0 4\nexpect lost 40\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\nwait 5\ngoto point 11.5 0 4\nexpect lost 40\n", NULL, NULL, MOST);
     assert_int_equal(play.heard[GAME_SOUND_LOST], 1);
     assert_int_equal(play.heard[GAME_SOUND_CAUGHT], 1);
     assert_true(play.heard[GAME_SOUND_GUARD_SEES] > 0);

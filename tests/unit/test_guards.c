@@ -210,7 +210,7 @@ static void test_care_wins(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.guard = true, .lamps = true}, false);
-    run(&play, "enfbot 1\nwait 6\ngoto point 11 0 4\nexpect lost 40\n");
+    run(&play, "enfbot 1\nwait 6\ngoto point 11.5 0 4\nexpect lost 40\n");
     close_play(&play);
     open_play(&play, (EnfNightDef){.guard = true, .lamps = true}, false);
     run(&play, "enfbot 1\nwait 6\nsneak on\ntake vase\ngoto exit\nexpect won 1\n");
