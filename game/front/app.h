@@ -50,6 +50,7 @@ EnfResult play_finish(Play *play, EnfError *error);
 typedef struct Input {
     bool held[ACTION_COUNT];
     bool mouse_use, mouse_drop;
+    uint32_t tapped;           /**< buttons pressed since the last tick: one let go again before it counts */
     double yaw_deg, pitch_deg; /**< turned by the mouse and not yet given to a tick */
     bool noclip, fly;
     SDL_GameController *pad;
@@ -59,6 +60,7 @@ typedef struct Input {
     bool pad_pushed[2]; /**< in a menu: the left stick stands aside, left or right; up or down */
 } Input;
 void input_release(Input *input); /**< as if every key was let go */
+void input_tap(Input *input, Action action);
 EnfInput input_take(Input *input, const Settings *settings, double pitch_deg);
 
 /* ---- menu.c ------------------------------------------------------------------------------------------------------ */

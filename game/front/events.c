@@ -75,6 +75,9 @@ static void play_key(App *app, SDL_Scancode code, bool down) {
     for (int i = 0; i < ACTION_COUNT; i++) {
         if (app->settings.keys[i] == (int)code) {
             app->input.held[i] = down;
+            if (down) {
+                input_tap(&app->input, (Action)i);
+            }
             if (i == ACTION_MAP && down) {
                 app->map_shown = !app->map_shown;
             }
@@ -127,8 +130,10 @@ static void button(App *app, const SDL_MouseButtonEvent *event) {
     if (app->captured) {
         if (event->button == SDL_BUTTON_LEFT) {
             app->input.mouse_use = down;
+            app->input.tapped |= down ? ENF_BUTTON_USE : 0U;
         } else if (event->button == SDL_BUTTON_RIGHT) {
             app->input.mouse_drop = down;
+            app->input.tapped |= down ? ENF_BUTTON_DROP : 0U;
         }
     } else if (down && event->button == SDL_BUTTON_LEFT) {
         int width = 1, height = 1;
@@ -252,6 +257,7 @@ static void pad_button(App *app, const SDL_ControllerButtonEvent *event) {
     } else {
         for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
             if (table[i].button == event->button) {
+                app->input.tapped |= down ? table[i].does : 0U;
                 app->input.pad_buttons = down ? app->input.pad_buttons | table[i].does
                                               : app->input.pad_buttons & ~table[i].does;
             }

@@ -10,6 +10,7 @@
 void input_release(Input *input) {
     memset(input->held, 0, sizeof input->held);
     input->mouse_use = input->mouse_drop = false;
+    input->tapped = 0;
     input->yaw_deg = input->pitch_deg = 0.0;
     input->pad_forward = input->pad_right = input->pad_yaw = input->pad_pitch = 0.0;
     input->pad_buttons = 0;
@@ -20,18 +21,26 @@ static int16_t axis(double value) {
     return (int16_t)(value * 32767.0);
 }
 
+static const struct {
+    Action action;
+    uint32_t button;
+} action_buttons[] = {{ACTION_JUMP, ENF_BUTTON_JUMP},
+                      {ACTION_CROUCH, ENF_BUTTON_CROUCH},
+                      {ACTION_RUN, ENF_BUTTON_RUN},
+                      {ACTION_USE, ENF_BUTTON_USE},
+                      {ACTION_DROP, ENF_BUTTON_DROP}};
+enum { ACTION_BUTTONS = sizeof action_buttons / sizeof *action_buttons };
+
+void input_tap(Input *input, Action action) {
+    for (size_t i = 0; i < ACTION_BUTTONS; i++) {
+        input->tapped |= action_buttons[i].action == action ? action_buttons[i].button : 0U;
+    }
+}
+
 static uint32_t buttons(const Input *input) {
-    static const struct {
-        Action action;
-        uint32_t button;
-    } table[] = {{ACTION_JUMP, ENF_BUTTON_JUMP},
-                 {ACTION_CROUCH, ENF_BUTTON_CROUCH},
-                 {ACTION_RUN, ENF_BUTTON_RUN},
-                 {ACTION_USE, ENF_BUTTON_USE},
-                 {ACTION_DROP, ENF_BUTTON_DROP}};
-    uint32_t down = input->pad_buttons;
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        down |= input->held[table[i].action] ? table[i].button : 0U;
+    uint32_t down = input->pad_buttons | input->tapped;
+    for (size_t i = 0; i < ACTION_BUTTONS; i++) {
+        down |= input->held[action_buttons[i].action] ? action_buttons[i].button : 0U;
     }
     down |= input->mouse_use ? ENF_BUTTON_USE : 0U;
     down |= input->mouse_drop ? ENF_BUTTON_DROP : 0U;
@@ -64,6 +73,7 @@ EnfInput input_take(Input *input, const Settings *settings, double pitch_deg) {
     out.yaw = (int32_t)(yaw * ENF_INPUT_DEGREE);
     out.pitch = (int32_t)(pitch * ENF_INPUT_DEGREE);
     out.buttons = buttons(input);
+    input->tapped = 0;
     input->yaw_deg = input->pitch_deg = 0.0;
     return out;
 }

@@ -403,6 +403,23 @@ static void test_the_elevator_by_the_use_key(void **state) {
     app_close(&app);
 }
 
+/* A key that is down and up between two ticks, as on a slow machine, is a key that was pressed; and pressed once. */
+static void test_a_quick_tap_counts(void **state) {
+    (void)state;
+    open_app(night((EnfNightDef){.lift = true}), NULL, 320, 180);
+    frames(10);
+    double floor = shown()->eye_ws.y, top = floor;
+    push_key(SDL_SCANCODE_SPACE, true);
+    push_key(SDL_SCANCODE_SPACE, false);
+    for (int i = 0; i < 120; i++) {
+        frames(1);
+        top = fmax(top, shown()->eye_ws.y);
+    }
+    assert_true(top > floor + 0.3);
+    assert_true(fabs(shown()->eye_ws.y - floor) < 0.01);
+    app_close(&app);
+}
+
 /* ---- sound ------------------------------------------------------------------------------------------------------------------ */
 
 static float loudest(Audio *audio, int blocks, float side[2]) {
@@ -572,6 +589,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_the_screen_of_a_game_won),
     cmocka_unit_test(test_the_screen_of_a_game_lost),
     cmocka_unit_test(test_the_elevator_by_the_use_key),
+    cmocka_unit_test(test_a_quick_tap_counts),
     cmocka_unit_test(test_a_place_sounds_until_it_is_left),
     cmocka_unit_test(test_the_palace_sounds),
     cmocka_unit_test(test_warm_frames_call_no_heap),
