@@ -7,7 +7,7 @@
 
 #include <enfilade/base.h>
 
-#define BENCH_TEXT 192
+#define BENCH_TEXT 256
 
 /** One line of the result: a technique on a scene. Counts are means over the frames; -1 where a column does not apply. */
 typedef struct BenchRow {
@@ -50,7 +50,11 @@ typedef struct BenchKnobs {
     uint32_t count;
 } BenchKnobs;
 
+/** A value that is none of a knob's ends the program with the status of a wrong command line. */
 double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double min, double max);
+/** One of `count` words: its number. */
+int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback);
+/** `fallback`, which may be NULL, where it is not given. */
 const char *bench_knob_text(BenchKnobs *knobs, const char *key, const char *fallback);
 
 typedef struct BenchRun {

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* As many movers as the sources had not. */
+enum { MANY = 100000 };
+
 #define EVERY "update-all,flat,sweep,plain,frustum,constant,adaptive,maximal,optimal,reach"
 
 MoversDef bench_movers_default(void) {
@@ -31,19 +34,10 @@ MoversDef bench_movers_default(void) {
     return def;
 }
 
-/* The number of a word in a list; -1 if it is not there. */
-static int word(const char *text, const char *const *words, int count) {
-    for (int i = 0; i < count; i++) {
-        if (strcmp(text, words[i]) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
-bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
+void bench_movers_knobs(BenchRun *run, MoversDef *def) {
     static const char *const motions[] = {"free", "linear", "spline", "character"};
     static const char *const eyes[] = {"still", "walk", "jump"};
+    static const char *const occluders[] = {"static", "all"};
     BenchKnobs *knobs = &run->knobs;
     def->rooms = (uint32_t)bench_knob(knobs, "rooms", def->rooms, 1.0, 1e6);
     def->movers = (uint32_t)bench_knob(knobs, "movers", def->movers, 1.0, 1e7);
@@ -59,18 +53,9 @@ bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
     def->leaf = bench_knob(knobs, "leaf", def->leaf, 0.5, 64.0);
     def->rounds = (uint32_t)bench_knob(knobs, "rounds", def->rounds, 1.0, 100.0);
     def->budget = bench_knob(knobs, "budget", def->budget, 0.001, 1e6);
-    static const char *const occluders[] = {"static", "all"};
-    int occluding = word(bench_knob_text(knobs, "occluders", occluders[def->occluders]), occluders, 2);
-    int motion = word(bench_knob_text(knobs, "motion", motions[def->motion]), motions, 4);
-    int eye = word(bench_knob_text(knobs, "eye", eyes[def->eye]), eyes, 3);
-    if (motion < 0 || eye < 0 || occluding < 0) {
-        fputs("enfbench: motion=free|linear|spline|character, eye=still|walk|jump and occluders=static|all are expected\n",
-              stderr);
-        return false;
-    }
-    def->motion = (MoversMotion)motion;
-    def->eye = (MoversEye)eye;
-    def->occluders = occluding == 1;
+    def->motion = (MoversMotion)bench_knob_word(knobs, "motion", motions, 4, (int)def->motion);
+    def->eye = (MoversEye)bench_knob_word(knobs, "eye", eyes, 3, (int)def->eye);
+    def->occluders = bench_knob_word(knobs, "occluders", occluders, 2, def->occluders) == 1;
     def->visible = def->visible > def->movers ? def->movers : def->visible;
     const char *policy = bench_knob_text(knobs, "policy", "all");
     if (strcmp(policy, "all") != 0) {
@@ -79,16 +64,24 @@ bool bench_movers_knobs(BenchRun *run, MoversDef *def) {
                     "enfbench: policy=%s: techniques are expected, separated by commas: zbuffer, hierarchical-z, tbv, naive, "
                     "lca, " EVERY "\n",
                     policy);
-            return false;
+            exit(2);
         }
         snprintf(def->techniques, sizeof def->techniques, "%s", policy);
     }
-    return true;
 }
 
 /* One case: the defaults of an experiment, then what the user says. */
 static bool one(BenchRun *run, const char *experiment, const char *name, MoversDef def) {
-    return bench_movers_knobs(run, &def) && bench_movers_case(run, experiment, name, &def);
+    bench_movers_knobs(run, &def);
+    return bench_movers_case(run, experiment, name, &def);
+}
+
+/* The same of a case that has very many movers, as its name says. */
+static bool one_of_many(BenchRun *run, const char *experiment, const char *name, MoversDef def) {
+    char text[64];
+    bench_movers_knobs(run, &def);
+    snprintf(text, sizeof text, "%s, %u movers", name, def.movers);
+    return bench_movers_case(run, experiment, text, &def);
 }
 
 bool bench_movers(BenchRun *run) {
@@ -193,8 +186,8 @@ bool bench_s3(BenchRun *run) {
         MoversDef def = chairs();
         bool many = i >= sizeof rooms / sizeof *rooms;
         def.rooms = rooms[i % (sizeof rooms / sizeof *rooms)];
-        def.movers = many ? 100000 : 92;
-        ok = one(run, "S3", many ? "static varies, 100000 movers" : "static varies", def);
+        def.movers = many ? MANY : 92;
+        ok = (many ? one_of_many : one)(run, "S3", "static varies", def);
     }
     return ok;
 }
@@ -204,8 +197,8 @@ bool bench_s4(BenchRun *run) {
     bool ok = true;
     for (size_t i = 0; i < sizeof rooms / sizeof *rooms && ok; i++) {
         MoversDef def = chairs();
-        def.rooms = rooms[i];
-        def.movers = 4 * rooms[i];
+        def.rooms = (uint32_t)bench_knob(&run->knobs, "rooms", rooms[i], 1.0, 1e6);
+        def.movers = 4 * def.rooms;
         ok = one(run, "S4", "four a room", def);
     }
     return ok;
@@ -216,9 +209,11 @@ bool bench_s5(BenchRun *run) {
     bool ok = true;
     for (size_t i = 0; i < sizeof movers / sizeof *movers && ok; i++) {
         MoversDef def = chairs();
-        def.rooms = 125;
+        char name[64];
+        def.rooms = (uint32_t)bench_knob(&run->knobs, "rooms", 125.0, 1.0, 1e6);
         def.movers = movers[i];
-        ok = one(run, "S5", "125 rooms", def);
+        snprintf(name, sizeof name, "%u rooms", def.rooms);
+        ok = one(run, "S5", name, def);
     }
     return ok;
 }
@@ -226,12 +221,13 @@ bool bench_s5(BenchRun *run) {
 /* Cost against looseness: overdraw is what was evaluated for each object drawn. */
 static bool policies(BenchRun *run, MoversDef def, const char *name) {
     static const uint32_t periods[] = {1, 4, 16, 64, 256, 1024};
+    bool (*measure)(BenchRun *, const char *, const char *, MoversDef) = def.movers == MANY ? one_of_many : one;
     snprintf(def.techniques, sizeof def.techniques, "adaptive,maximal,optimal,reach");
-    bool ok = one(run, "S6", name, def);
+    bool ok = measure(run, "S6", name, def);
     for (size_t i = 0; i < sizeof periods / sizeof *periods && ok; i++) {
         snprintf(def.techniques, sizeof def.techniques, "constant");
         def.period = periods[i];
-        ok = one(run, "S6", name, def);
+        ok = measure(run, "S6", name, def);
     }
     return ok;
 }
@@ -246,8 +242,8 @@ bool bench_s6(BenchRun *run) {
     def.eye = MOVERS_WALK;
     ok = ok && policies(run, def, "walk");
     def.rooms = 10000;
-    def.movers = 100000;
-    return ok && policies(run, def, "walk, 100000 movers");
+    def.movers = MANY;
+    return ok && policies(run, def, "walk");
 }
 
 /* ---- Paunoo ----------------------------------------------------------------------------------------------------- */
@@ -256,8 +252,6 @@ typedef struct ThesisScene {
     const char *name;
     uint32_t rooms, movers, visible, furniture;
 } ThesisScene;
-
-enum { MANY = 100000 };
 
 static MoversDef thesis(const ThesisScene *scene) {
     MoversDef def = bench_movers_default();
@@ -308,7 +302,7 @@ static bool thesis_polygons(BenchRun *run, const ThesisScene *scene) {
     for (size_t i = 0; i < (is_alone(scene) ? 2U : 3U) && ok; i++) {
         MoversDef def = with_many(scene);
         def.polygons = polygons[i];
-        ok = one(run, scene->name, "test 1: polygons, 100000 movers", def);
+        ok = one_of_many(run, scene->name, "test 1: polygons", def);
     }
     return ok;
 }
@@ -337,7 +331,7 @@ static bool thesis_speed(BenchRun *run, const ThesisScene *scene) {
         MoversDef def = many ? with_many(scene) : thesis(scene);
         def.speed = speeds[i % (sizeof speeds / sizeof *speeds)];
         def.motion = MOVERS_FREE;
-        ok = one(run, scene->name, many ? "test 3: speed, 100000 movers" : "test 3: speed", def);
+        ok = (many ? one_of_many : one)(run, scene->name, "test 3: speed", def);
     }
     return ok;
 }

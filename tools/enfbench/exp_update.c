@@ -72,7 +72,7 @@ typedef struct Knobs {
 
 static const char *const names[IDLE] = {"naive", "lca"};
 
-static bool read_knobs(BenchRun *run, Knobs *knobs) {
+static void read_knobs(BenchRun *run, Knobs *knobs) {
     double frames = bench_knob(&run->knobs, "frames", FRAMES, BATCHES, 1e9);
     knobs->batch = (uint32_t)(frames / BATCHES);
     knobs->seed = (uint32_t)bench_knob(&run->knobs, "seed", 1.0, 0.0, 4e9);
@@ -82,9 +82,8 @@ static bool read_knobs(BenchRun *run, Knobs *knobs) {
     knobs->rows[1] = all || strcmp(policy, names[1]) == 0;
     if (!knobs->rows[0] && !knobs->rows[1]) {
         fprintf(stderr, "enfbench: policy=%s: naive and lca are expected, separated by commas\n", policy);
-        return false;
+        exit(2);
     }
-    return true;
 }
 
 static bool open_way(Way *way, const EnfMap *map, const Cube *cube, EnfDbvUpdate update) {
@@ -191,7 +190,8 @@ static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *de
 bool bench_s1(BenchRun *run) {
     Knobs knobs;
     uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 4096.0, 1.0, 1e6);
-    bool ok = read_knobs(run, &knobs);
+    bool ok = true;
+    read_knobs(run, &knobs);
     for (uint32_t n = 1; n * n <= most && ok; n *= 2) {
         EnfRoomsDef def = enf_rooms_def_default();
         def.nx = n;
@@ -210,7 +210,8 @@ bool bench_s1(BenchRun *run) {
 /* One table full of things: as many boxes as the paper's table has polygons; the cube goes around a place on it. */
 bool bench_s2(BenchRun *run) {
     Knobs knobs;
-    bool ok = read_knobs(run, &knobs);
+    bool ok = true;
+    read_knobs(run, &knobs);
     uint32_t boxes = (uint32_t)bench_knob(&run->knobs, "boxes", 5745.0, 0.0, 1e5);
     uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 64.0, 1.0, 1e4);
     for (uint32_t n = 1; n * n <= most && ok; n *= 8) {

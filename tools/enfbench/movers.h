@@ -144,8 +144,8 @@ void bench_frames_merge(MoversFrame *frames, const MoversFrame *others, uint32_t
 /** Fills in the columns on time; sorts `frames`. `volumes`: those on what the slowest frame did, too. */
 void bench_frames_row(MoversFrame *frames, uint32_t count, bool volumes, BenchRow *row);
 
-/** Knobs that every experiment on movers has, over what `def` says. False after a message. */
-bool bench_movers_knobs(BenchRun *run, MoversDef *def);
+/** Knobs that every experiment on movers has, over what `def` says. */
+void bench_movers_knobs(BenchRun *run, MoversDef *def);
 MoversDef bench_movers_default(void);
 /** Are these, separated by commas, names of techniques, each once? */
 bool bench_movers_known(const char *list);

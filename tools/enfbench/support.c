@@ -60,6 +60,21 @@ double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double mi
     return value;
 }
 
+int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback) {
+    const char *text = bench_knob_text(knobs, key, words[fallback]);
+    for (int i = 0; i < count; i++) {
+        if (strcmp(text, words[i]) == 0) {
+            return i;
+        }
+    }
+    fprintf(stderr, "enfbench: %s=%s: ", key, text);
+    for (int i = 0; i < count; i++) {
+        fprintf(stderr, "%s%s", i == 0 ? "" : "|", words[i]);
+    }
+    fputs(" is expected\n", stderr);
+    exit(2);
+}
+
 bool bench_temporary_folder(char *folder, size_t size) {
     const char *place = getenv("TMPDIR");
     int length = snprintf(folder, size, "%s/enfbench-XXXXXX", place == NULL ? "/tmp" : place);
