@@ -7,7 +7,7 @@
 
 enum { MOMENT_TICKS = 15, DECIDE_EVERY = 12, LINE_MAX = 160, ASIDES = 24 };
 /* Moments that count for going somewhere; to stay in a place all do: until who walks by has walked by. */
-enum { GO_MOMENTS = 24 };
+enum { GO_MOMENTS = 36 };
 /* Ticks of no way past the guards, until another way is tried. */
 enum { BARRED_TICKS = 40 * ENF_TICK_RATE };
 /* Decisions for which it flees one way. */
