@@ -470,6 +470,35 @@ static void test_a_place_sounds_until_it_is_left(void **state) {
     audio_free(&audio);
 }
 
+/* The one that is left is taken; what sounded goes on. */
+static void test_a_sound_card_may_go_away(void **state) {
+    (void)state;
+    char folder[1024];
+    open_app(night((EnfNightDef){.sounds = true}), NULL, 320, 180);
+    app.options.mute = false;
+    snprintf(folder, sizeof folder, "%s", enf_test_source_path("assets/sounds"));
+    SDL_SetHint(SDL_HINT_AUDIODRIVER, "dummy");
+    assert_int_equal(SDL_InitSubSystem(SDL_INIT_AUDIO), 0);
+    audio_load(&app.audio, folder);
+    assert_true(audio_open(&app.audio));
+    audio_loop(&app.audio, AUDIO_SLOT_AMBIENT, AUDIO_NIGHT);
+    frames(10);
+    SDL_Event event;
+    memset(&event, 0, sizeof event);
+    event.type = SDL_AUDIODEVICEREMOVED;
+    event.adevice.which = app.audio.device;
+    assert_int_equal(SDL_PushEvent(&event), 1);
+    frames(2);
+    assert_true(app.audio.device != 0);
+    unsigned mixed = atomic_load(&app.audio.frames);
+    for (int i = 0; i < 200 && atomic_load(&app.audio.frames) == mixed; i++) {
+        SDL_Delay(10);
+    }
+    assert_true(atomic_load(&app.audio.frames) > mixed);
+    assert_int_equal(menu_page(&app), MENU_NONE); /* the game goes on meanwhile */
+    app_close(&app);
+}
+
 /* From where a game in the palace begins: what the level's nodes say of sounds, found and heard. */
 static void test_the_palace_sounds(void **state) {
     (void)state;
@@ -591,6 +620,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_the_elevator_by_the_use_key),
     cmocka_unit_test(test_a_quick_tap_counts),
     cmocka_unit_test(test_a_place_sounds_until_it_is_left),
+    cmocka_unit_test(test_a_sound_card_may_go_away),
     cmocka_unit_test(test_the_palace_sounds),
     cmocka_unit_test(test_warm_frames_call_no_heap),
     cmocka_unit_test(test_a_hundred_restarts_keep_the_memory),
