@@ -131,6 +131,11 @@ static double suspicion(const GameBot *bot, EnfVec3 at) {
     return worst;
 }
 
+/* How far ahead a way must be safe: who has waited long is content with less. */
+static uint32_t far_ahead(const GameBot *bot) {
+    return (double)bot->sneak.waited < PATIENCE ? GO_MOMENTS : 2 * GO_MOMENTS / 3;
+}
+
 /* The most that any guard will have noticed if the bot does so: what is far off counts less, for it can still be mended. */
 static double risk(GameBot *bot, const Line *line, uint32_t moments) {
     const Game *game = bot->game;
@@ -150,7 +155,7 @@ static double risk(GameBot *bot, const Line *line, uint32_t moments) {
             notice[g] = fmax(0.0, notice[g] + more);
             if (more > 0.0) {
                 sum += more;
-                worst = fmax(worst, notice[g] * (1.0 - 0.4 * (double)k / GO_MOMENTS * (moments == GO_MOMENTS)));
+                worst = fmax(worst, notice[g] * (1.0 - 0.4 * (double)k / moments * (moments <= GO_MOMENTS)));
             }
         }
     }
@@ -179,7 +184,7 @@ static void line_back(const GameBot *bot, Line *line) {
 
 static double try_gait(GameBot *bot, Line *line, uint32_t gait) {
     line->gait = gait;
-    return risk(bot, line, GO_MOMENTS);
+    return risk(bot, line, far_ahead(bot));
 }
 
 /* The best place a few steps aside, to stay there. */
@@ -227,7 +232,7 @@ static void decide_else(GameBot *bot, double safe, double on) {
     BotSneak *sneak = &bot->sneak;
     const uint32_t gaits[3] = {ENF_BUTTON_CROUCH, 0, ENF_BUTTON_RUN};
     Line line = {.count = 0, .gait = ENF_BUTTON_CROUCH};
-    double best = risk(bot, &line, GO_MOMENTS);
+    double best = risk(bot, &line, far_ahead(bot));
     if (best < safe || best <= on) {
         settle_on(sneak, BOT_STANDS, ENF_BUTTON_CROUCH);
     } else {
