@@ -20,6 +20,8 @@
 #define APPROACH_CROWD 8U
 /* Few rooms hold a volume that walks, so that it is not worth asking for what would fly so many rooms' lengths anyway. */
 #define WALK 0.35
+/* How far a volume may reach through a wall, in rooms' lengths. */
+#define NEAR_WALL 0.0625
 /* What is shortened ends in that many ticks and a part of so many more, each object at its own. */
 #define SHORT_PERIODS 32U
 /* The first volumes, made before anything was seen, end over so many ticks. */
@@ -81,6 +83,13 @@ static uint32_t beside(const EnfDbvIndex *index, uint32_t last, EnfDbvCause caus
     return clamp_period(index, ticks);
 }
 
+/* Behind the wall of a seen cell the share of the way is nothing, and volumes would end in every tick; that one reaches through the
+ * wall a little costs less. */
+static uint32_t least_period(const EnfDbvIndex *index, double speed) {
+    double ticks = speed > 0.0 ? NEAR_WALL * index->room / speed * ENF_TICK_RATE : DRAWN_PERIOD;
+    return clamp_period(index, ticks < DRAWN_PERIOD ? ticks : DRAWN_PERIOD);
+}
+
 /* The longest period whose volume keeps off the seen cells: for ever if the whole path lies in a few cells, none of them seen. Else
  * doubled and bisected over the motion's own bounds. */
 static uint32_t maximal(EnfDbvIndex *index, uint32_t object, double gap) {
@@ -90,10 +99,15 @@ static uint32_t maximal(EnfDbvIndex *index, uint32_t object, double gap) {
         return index->def.max_period_ticks;
     }
     double speed = enf_world_max_speed(index->world, object);
+    uint32_t least = least_period(index, speed);
+    if (!keeps_off(index, bound_for(index, object, least), gap)) {
+        return least;
+    }
     uint32_t good = speed < HUGE_VAL ? clamp_period(index, index->approach * gap / speed * ENF_TICK_RATE) : 1U;
     if (good > 1 && !keeps_off(index, bound_for(index, object, good), gap)) {
         good = 1; /* the box of a turned object grows by corners: the speed is of its points */
     }
+    good = good > least ? good : least;
     uint32_t bad = good;
     for (int doublings = 0; doublings < 20; doublings++) {
         bad = clamp_period(index, 2.0 * (double)bad);
@@ -119,7 +133,10 @@ static uint32_t maximal(EnfDbvIndex *index, uint32_t object, double gap) {
 /* Free objects move by their speed alone, so that their period follows from the distance in one step. */
 static uint32_t maximal_free(EnfDbvIndex *index, uint32_t object, double gap) {
     double speed = enf_world_max_speed(index->world, object);
-    return speed > 0.0 ? clamp_period(index, index->approach * gap / speed * ENF_TICK_RATE) : index->def.max_period_ticks;
+    uint32_t least = least_period(index, speed);
+    uint32_t ticks = speed > 0.0 ? clamp_period(index, index->approach * gap / speed * ENF_TICK_RATE)
+                                 : index->def.max_period_ticks;
+    return ticks > least ? ticks : least;
 }
 
 static uint32_t adaptive(const EnfDbvIndex *index, uint32_t last, EnfDbvCause cause) {
