@@ -381,7 +381,7 @@ static void test_the_screen_of_a_game_won(void **state) {
 
 static void test_the_screen_of_a_game_lost(void **state) {
     (void)state;
-    over_screen((EnfNightDef){.guard = true}, "enfbot 1\nwait 5\ngoto point 10 0 4\nexpect lost 30\nwait 4\n", MENU_LOST);
+    over_screen((EnfNightDef){.guard = true}, "enfbot 1\nwait 5\ngoto point 11.5 0 4\nexpect lost 40\nwait 4\n", MENU_LOST);
 }
 
 /* From (2, 0, 4) to the plate about (6, 0, 7), down at it, E, and up with it. */
