@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-/* Metres beyond which nothing is heard. */
-#define HEARD_MOST 45.0
 /* Metres of detour (way less straight line) that muffle a sound by half. */
 #define MUFFLE 10.0
 
@@ -13,7 +11,7 @@ void sim_hear(Game *game, GameSound *sound, uint32_t cell) {
     const EnfCharacter *body = &game->player.body;
     EnfVec3 ears = enf_character_eye(body);
     if (!game->ears_ready) { /* once a tick, and only if something sounds */
-        sim_ways_find(game, &game->ears, ears, body->cell, HEARD_MOST);
+        sim_ways_find(game, &game->ears, ears, body->cell, SIM_HEARD_MOST);
         game->ears_ready = true;
     }
     uint32_t last;
@@ -26,12 +24,12 @@ void sim_hear(Game *game, GameSound *sound, uint32_t cell) {
     for (uint32_t p = last; p != ENF_NONE; p = game->ears.before[p]) {
         sound->apparent_ws = game->gates[p].middle;
     }
-    if (!(way < HEARD_MOST)) {
+    if (!(way < SIM_HEARD_MOST)) {
         sound->gain = 0.0;
         sound->muffled = 1.0;
         return;
     }
-    double fade = 1.0 - way / HEARD_MOST;
+    double fade = 1.0 - way / SIM_HEARD_MOST;
     sound->gain = sound->loudness * fade * fade / fmax(1.0, 0.35 * way);
     sound->muffled = way > straight ? (way - straight) / (way - straight + MUFFLE) : 0.0;
 }

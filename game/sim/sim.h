@@ -14,6 +14,8 @@ enum {
     SIM_TRACK_MAX = 64
 };
 
+/** Metres along the ways beyond which the player hears nothing. */
+#define SIM_HEARD_MOST 45.0
 /** Metres: how far a hand reaches. */
 #define SIM_REACH 2.0
 
@@ -148,7 +150,7 @@ typedef struct SimWays {
 
 /** Something that sounds by itself (speakers.c). Not hashed: of the map alone. */
 typedef struct SimSpeaker {
-    EnfVec3 at;                       /**< at rest */
+    EnfVec3 at;                       /**< where it stands; of what moves: from its mover's place */
     uint32_t id, voice, mover, cell;  /**< mover ENF_NONE: it stands still */
     int64_t phase_ticks, every_ticks; /**< of `phase`, `sound_every` */
 } SimSpeaker;
