@@ -135,10 +135,10 @@ typedef struct App {
     Engineer engineer;
     AppMode mode;
     bool quit, focus, captured, map_shown, over_shown;
-    double behind_ms; /**< time that the simulation has not yet seen */
-    double over_ms;   /**< since the game was won or lost */
-    uint64_t frames, ticks;
-    uint64_t over_tick; /**< of the game: the last in which it was neither won nor lost */
+    double behind_ms;       /**< time that the simulation has not yet seen */
+    double over_ms;         /**< since the game was won or lost */
+    uint64_t frames, ticks; /**< frames: without those of the loading screen, of which a slow machine shows more */
+    uint64_t over_tick;     /**< of the game: the last in which it was neither won nor lost */
     uint32_t shots;
     int told;                /**< --tell: the mode and menu that were told last */
     uint32_t warm;           /**< frames of play since something was opened or changed */

@@ -1,5 +1,5 @@
-/* Puts the map, which is read and checked, on the graphics card while the window stays alive: a second context of the same window makes the
- * pictures meanwhile, since the one that will draw belongs to the thread that loads. */
+/* Puts the map, which is read and checked, on the graphics card while the window stays alive: a second context of the same window
+ * makes the pictures meanwhile, since the one that will draw belongs to the thread that loads. */
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -68,7 +68,6 @@ static void draw(App *app, int stage, double stage_ms, double share) {
     enf_gl_ui_clear(app->ui, width, height, 0xff14100cu);
     enf_gl_ui_draw(app->ui, c->vertices, c->count, width, height);
     SDL_GL_SwapWindow(app->window);
-    app->frames++;
 }
 
 static double progress(int stage, double stage_ms) {

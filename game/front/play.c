@@ -29,7 +29,7 @@ static EnfResult begin_replay(Play *play, const EnfMap *map, const Options *opti
         play->replays = true;
         play->cursor = enf_replay_begin(&play->replay);
     }
-    return result;
+    return result ? enf_error_file(error, result, options->play) : ENF_OK;
 }
 
 EnfResult play_open(Play *play, const EnfMap *map, const Options *options, EnfError *error) {

@@ -196,13 +196,14 @@ EnfResult game_create(Game **out, const EnfMap *map, const GameDef *def, const E
     game->def = *def;
     game->mover_room = map->movers_count;
     EnfResult result = make(game, error);
-    if (result == ENF_OK && (!sim_gates_create(game) || !sim_speakers_create(game))) {
-        result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for the doorways");
+    if (result == ENF_OK && !sim_speakers_create(game)) {
+        result = enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for what sounds by itself");
     }
     if (result != ENF_OK) {
         game_destroy(game);
         return result;
     }
+    sim_gates_find(game);
     find_spawn(game);
     find_exit(game);
     game->usual_light = sim_usual_light(game);

@@ -123,12 +123,11 @@ static bool is_walkable(const Game *game, uint32_t index, SimGate *gate) {
            !is_barred(game, gate->foot);
 }
 
-bool sim_gates_create(Game *game) {
+void sim_gates_find(Game *game) {
     for (uint32_t i = 0; i < game->map->portals_count; i++) {
         game->gates[i] = make_gate(game->map, i);
         game->gates[i].walkable = is_walkable(game, i, &game->gates[i]);
     }
-    return true;
 }
 
 /* ---- a heap of half-portals by distance ----------------------------------------------------------------------------- */

@@ -126,7 +126,7 @@ typedef struct SimScore {
 
 /* ---- the portal graph (routes.c) ----------------------------------------------------------------------------------- */
 
-/** A doorway: the middle of a portal on the floor, and how far its sill is above the floor. */
+/** A doorway: the middle of a portal, the place where feet pass it, and whether they can. */
 typedef struct SimGate {
     EnfVec3 middle, foot;
     bool walkable;
@@ -296,7 +296,8 @@ double sim_sight(Game *game, const SimEye *eye, const EnfCharacter *body);
 double sim_light(const Game *game, uint32_t cell, EnfVec3 at);
 double sim_usual_light(const Game *game);
 
-bool sim_gates_create(Game *game);
+/** Finds of every half-portal where it is and whether somebody gets through on foot. */
+void sim_gates_find(Game *game);
 void sim_ways_find(Game *game, SimWays *ways, EnfVec3 from, uint32_t cell, double most);
 /** Metres along the ways to a point of a cell; `last` the half-portal by which it is entered (ENF_NONE: same cell). HUGE_VAL if none. */
 double sim_ways_to(const Game *game, const SimWays *ways, EnfVec3 to, uint32_t cell, uint32_t *last);

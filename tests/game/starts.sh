@@ -34,7 +34,7 @@ for display in "$DISPLAY" ""; do
     refused 1 'text: .*header' --map text
     refused 1 'text: not a recording' --map "$map" --play text
     refused 1 'bad.enfreplay' --map "$map" --play bad.enfreplay
-    refused 1 'recorded with the map' --map "$map" --play "$source/tests/replay/map01_walk.enfreplay"
+    refused 1 'map01_walk.enfreplay: recorded with the map' --map "$map" --play "$source/tests/replay/map01_walk.enfreplay"
     refused 1 'no/such/folder.enfreplay' --map "$map" --record no/such/folder.enfreplay
     refused 1 'river.csv: cannot open' --map "$map" --river no/river.csv
     refused 1 'no guided tour' --map other.enfmap --tour
@@ -64,6 +64,12 @@ settings=config/enfilade/settings.json
 mkdir -p config/enfilade
 echo '{"width": 640, "height": 400, "vsync": false, "sensitivity": 1.5}' >"$settings"
 cp "$settings" before.json
+
+# --frames counts what is drawn of the game, not what a slow machine shows while it loads.
+begin --frames 3 --mute --tell
+ended
+check "three frames were asked for" test "$status" -eq 0
+check "and drawn" grep -q '^frames 3 ' said
 
 # Signals, wherever the game stands.
 for signal in TERM INT; do
