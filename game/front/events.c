@@ -9,6 +9,9 @@
 /* Degrees for a pixel of the mouse. */
 #define MOUSE_DEGREES 0.09
 #define PAD_DEAD 0.18
+/* A stick is pushed, as keys are, beyond the first; and let go within the second: of 32,767. */
+#define PAD_PUSHED_ON 20000
+#define PAD_PUSHED_OFF 12000
 
 static void pause_game(App *app) {
     if (app->mode == APP_PLAYING && menu_page(app) == MENU_NONE) {
@@ -176,7 +179,7 @@ static void pad_stick_menu(App *app, const SDL_ControllerAxisEvent *event) {
         return;
     }
     int which = event->axis == SDL_CONTROLLER_AXIS_LEFTY,
-        far = abs(event->value) > (app->input.pad_pushed[which] ? 12000 : 20000);
+        far = abs(event->value) > (app->input.pad_pushed[which] ? PAD_PUSHED_OFF : PAD_PUSHED_ON);
     if (far && !app->input.pad_pushed[which]) {
         pad_menu(app, keys[which][event->value > 0]);
     }
@@ -187,6 +190,10 @@ static void pad_axis(App *app, const SDL_ControllerAxisEvent *event) {
     if (menu_page(app) != MENU_NONE) {
         pad_stick_menu(app, event);
         return;
+    }
+    if (event->axis == SDL_CONTROLLER_AXIS_LEFTX || event->axis == SDL_CONTROLLER_AXIS_LEFTY) {
+        /* so that a stick that is held when a menu opens chooses nothing before it came back */
+        app->input.pad_pushed[event->axis == SDL_CONTROLLER_AXIS_LEFTY] = abs(event->value) > PAD_PUSHED_OFF;
     }
     double value = (double)event->value / 32767.0;
     double size = fabs(value) < PAD_DEAD ? 0.0 : (fabs(value) - PAD_DEAD) / (1.0 - PAD_DEAD);

@@ -70,8 +70,9 @@ void play_step(Play *play, const EnfInput *input) {
         replay_tick(play);
         return;
     }
+    GamePhase before = game_state(play->game)->phase;
     game_step(play->game, input);
-    if (play->recorder) {
+    if (play->recorder && before == GAME_PLAYING) { /* what goes on behind the last menu is no one's doing */
         game_record(play->recorder, play->game, input, NULL);
     }
 }

@@ -265,6 +265,19 @@ static void test_a_gamepad_goes_through_menus(void **state) {
     frames(2);
     pad_button(pad, SDL_CONTROLLER_BUTTON_A);
     assert_int_equal(menu_page(&app), MENU_NONE);
+    /* Who holds it while a menu opens chooses nothing by it. */
+    pad_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, 32767);
+    frames(5);
+    pad_button(pad, SDL_CONTROLLER_BUTTON_START);
+    assert_int_equal(menu_page(&app), MENU_PAUSE);
+    app.menu.chosen[0] = 0;
+    pad_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, 32000);
+    frames(5);
+    assert_int_equal(app.menu.chosen[0], 0);
+    pad_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, 0);
+    frames(2);
+    pad_button(pad, SDL_CONTROLLER_BUTTON_A);
+    assert_int_equal(menu_page(&app), MENU_NONE);
     tick = shown()->tick;
     frames(10);
     assert_true(shown()->tick > tick);

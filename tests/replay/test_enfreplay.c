@@ -204,7 +204,9 @@ static void foreign_recording_is_refused(void **state) {
     EXPECT("verify --map @/other.enfmap @/walk.enfreplay", 1, "recorded with the map rooms (", "this is the map ",
            "other.enfmap");
     EXPECT("verify --maps @/nowhere @/walk.enfreplay", 1, "recorded on the map \"rooms\"", "--map FILE");
-    EXPECT("update --map @/other.enfmap @/walk.enfreplay", 0, "231 ticks");
+    EXPECT("update --map @/other.enfmap @/walk.enfreplay", 1, "recorded on the map rooms, not on other", "--force");
+    EXPECT("verify @/walk.enfreplay", 0, "ok"); /* and is what it was */
+    EXPECT("update --map @/other.enfmap --force @/walk.enfreplay", 0, "231 ticks");
     EXPECT("verify @/walk.enfreplay", 0, "ok");
     EXPECT("info @/walk.enfreplay", 0, "map          other (");
 }
@@ -240,8 +242,8 @@ static void command_line_is_checked(void **state) {
     EXPECT("record --map a -o b --mash 1 --script c", 2, "one of --script, --path and --mash");
     EXPECT("record --mash 1", 2, "are needed");
     EXPECT("record --map a -o b --mash 1 c", 2, "unexpected argument");
-    EXPECT("record --map @/rooms.enfmap -o @/b --mash x", 1, "--mash wants a number");
-    EXPECT("record --map @/rooms.enfmap -o @/b --mash 1 --seed -1", 1, "--seed wants a number");
+    EXPECT("record --map @/rooms.enfmap -o @/b --mash x", 2, "--mash wants a number");
+    EXPECT("record --map @/rooms.enfmap -o @/b --mash 1 --seed -1", 2, "--seed wants a number");
     EXPECT("record --map @/rooms.enfmap -o @/nowhere/b --mash 1", 1, "cannot open for writing");
 }
 

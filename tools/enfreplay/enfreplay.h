@@ -51,6 +51,9 @@ bool session_step(Session *session, const EnfReplay *replay, const EnfReplayTick
 /** Tells of a divergence on stderr: tick, time, hashes, fields. */
 void session_tell(const char *recording, const EnfReplay *replay, const EnfReplayDivergence *divergence);
 
+/** A whole number of 64 bits, decimal or 0x…; false if `text` is none. */
+bool enfreplay_number(const char *text, uint64_t *value);
+
 /** Says what went wrong on stderr; returns the exit status for it. */
 int enfreplay_fail(const EnfError *error);
 

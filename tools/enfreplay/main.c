@@ -38,7 +38,9 @@ static const char about_record[] =
     "random input (--mash).";
 static const char about_update[] =
     "Plays the input of recordings on the map as it is now, and puts the states that come of it in the place of the recorded\n"
-    "ones: after a change that was meant to change them. Also accepts recordings of other maps, games and engines.";
+    "ones: after a change that was meant to change them. Accepts that map, game and engine have changed; a --map of another "
+    "name\n"
+    "only with --force.";
 static const char about_info[] = "Prints what recordings say of themselves: versions, map, length, fields.";
 
 /* Options that several commands have; a table is put together from these groups. */
@@ -152,11 +154,22 @@ static EnfCliResult parse_record(Options *o, Arguments arguments) {
     if ((o->script != NULL) + (o->mash != NULL) + (o->path != NULL) != 1) {
         return enf_cli_fail(&cli, "one of --script, --path and --mash is needed");
     }
+    uint64_t number;
+    if (o->mash && !enfreplay_number(o->mash, &number)) {
+        return enf_cli_fail(&cli, "--mash wants a number, not %.40s", o->mash);
+    }
+    if (o->seed && !enfreplay_number(o->seed, &number)) {
+        return enf_cli_fail(&cli, "--seed wants a number, not %.40s", o->seed);
+    }
     return ENF_CLI_RUN;
 }
 
 static EnfCliResult parse_update(Options *o, Arguments arguments) {
-    const EnfOption options[] = {MAP_OPTIONS, QUIET_OPTION};
+    const EnfOption options[] = {
+        MAP_OPTIONS,
+        {"--force", NULL, ENF_OPTION_FLAG, &o->force, NULL, NULL, "also onto a --map of another name than the recorded one"},
+        QUIET_OPTION,
+    };
     const EnfCli cli = {"enfreplay update", "[options] FILE.enfreplay...", about_update, options,
                         sizeof options / sizeof *options};
     EnfCliResult result = parse_table(&cli, o, arguments);

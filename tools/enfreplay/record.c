@@ -69,7 +69,7 @@ static void source_close(Source *source) {
     steer_close(&source->steer);
 }
 
-static bool parse_u64(const char *text, uint64_t *value) {
+bool enfreplay_number(const char *text, uint64_t *value) {
     char *end;
     errno = 0;
     unsigned long long parsed = strtoull(text, &end, 0);
@@ -109,10 +109,8 @@ static EnfResult open_source(Source *source, Session *session, const Options *op
         source->steer.use = options->use;
         return result;
     }
-    uint64_t seed;
-    if (!parse_u64(options->mash, &seed)) {
-        return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "--mash wants a number, not %.40s", options->mash);
-    }
+    uint64_t seed = 0;
+    (void)enfreplay_number(options->mash, &seed); /* the command line was checked */
     source->kind = SOURCE_MASH;
     source->mash = mash_begin(seed, options->builder);
     source->limit = options->ticks ? options->ticks : MASH_TICKS;
@@ -159,12 +157,12 @@ static EnfResult record_to(Session *session, Source *source, const EnfReplayHead
     return result;
 }
 
-static EnfResult wanted_header(EnfReplayHeader *header, const Options *options, const Session *session, EnfError *error) {
+static void wanted_header(EnfReplayHeader *header, const Options *options, const Session *session) {
     *header = enf_replay_header_default();
     header->seed = 1;
     header->field_every = options->fields_every;
-    if (options->seed && !parse_u64(options->seed, &header->seed)) {
-        return enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "--seed wants a number, not %.40s", options->seed);
+    if (options->seed) {
+        (void)enfreplay_number(options->seed, &header->seed); /* the command line was checked */
     }
     const char *file = options->script ? options->script : options->path, *slash = file ? strrchr(file, '/') : NULL;
     char source[64];
@@ -173,7 +171,6 @@ static EnfResult wanted_header(EnfReplayHeader *header, const Options *options, 
     snprintf(header->start, sizeof header->start, "%s", options->start ? options->start : "");
     snprintf(header->title, sizeof header->title, "%s", options->title ? options->title : "");
     snprintf(header->script, sizeof header->script, "%s", slash ? slash + 1 : file ? file : source);
-    return ENF_OK;
 }
 
 int cmd_record(const Options *options) {
@@ -183,8 +180,8 @@ int cmd_record(const Options *options) {
     EnfReplayHeader header = enf_replay_header_default();
     memset(&source, 0, sizeof source);
     EnfResult result = session_open_map(&session, options, "", &header, &error);
-    if (result == ENF_OK && (result = wanted_header(&header, options, &session, &error)) == ENF_OK &&
-        (result = session_start(&session, &header, &error)) == ENF_OK &&
+    wanted_header(&header, options, &session);
+    if (result == ENF_OK && (result = session_start(&session, &header, &error)) == ENF_OK &&
         (result = open_source(&source, &session, options, &error)) == ENF_OK) {
         sim_fill_header(session.sim, &header);
         result = record_to(&session, &source, &header, options->output, options, &error);
@@ -196,10 +193,22 @@ int cmd_record(const Options *options) {
 
 /* ---- update ----------------------------------------------------------------------------------------------------- */
 
+/* A slip of --map must not cost a recording: a map of another name is a map that was not meant, unless --force says so. */
+static EnfResult check_name(const char *path, const Options *options, const Session *session, const EnfReplay *replay,
+                            EnfError *error) {
+    if (!options->map || options->force || strcmp(session->map_name, replay->header.map) == 0) {
+        return ENF_OK;
+    }
+    enf_error_set(error, ENF_ERROR_ARGUMENT, UINT64_MAX, "recorded on the map %s, not on %s: --force moves it there",
+                  replay->header.map, session->map_name);
+    return enf_error_file(error, ENF_ERROR_ARGUMENT, path);
+}
+
 static EnfResult update_one(const char *path, const Options *options, EnfError *error) {
     Session session;
     EnfReplay replay;
     EnfResult result = session_open(&session, &replay, options, path, true, error);
+    result = result ? result : check_name(path, options, &session, &replay, error);
     if (result == ENF_OK) {
         Source source;
         memset(&source, 0, sizeof source);
