@@ -161,10 +161,11 @@ static bool reaches(SimGuard *guard, double metres) {
     return false;
 }
 
-/* Nine of ten: the rest are nooks behind furniture and tops of things, to which a body is put but no way leads. */
+/* Nine of ten: the rest are nooks behind furniture and tops of things, to which a body is put but no way leads. A rate wants a large
+ * sample: dice throw the long label's; a dozen are always the same. */
 static void test_guards_get_everywhere(void **state) {
     (void)state;
-    EnfTestRng rng = enf_test_rng(3);
+    EnfTestRng rng = enf_test_long() ? enf_test_rng(3) : enf_test_rng_fixed(2, 3);
     uint32_t rounds = enf_test_rounds(12, 150), tried = 0, come = 0;
     for (uint32_t i = 0; i < rounds; i++) {
         game_restart(game);
