@@ -71,7 +71,7 @@ static void wonder(Game *game, SimGuard *guard) {
     sim_sound(game, GAME_SOUND_GUARD_WONDERS, sim_guard_eye(guard), guard->body.cell, 0.7);
 }
 
-static void chase(Game *game, SimGuard *guard) {
+void sim_guard_chase(Game *game, SimGuard *guard) {
     if (guard->mood != GAME_GUARD_CHASES) {
         step_off(game, guard);
         guard->mood = GAME_GUARD_CHASES;
@@ -144,7 +144,7 @@ static void look(Game *game, SimGuard *guard, uint32_t number) {
         think_of(guard, game->player.body.position, sim_feet_cell(game, &game->player.body));
     }
     if (guard->notice >= 1.0 || (guard->sees && guard->mood == GAME_GUARD_CHASES)) {
-        chase(game, guard);
+        sim_guard_chase(game, guard);
     } else if (guard->notice > SIM_NOTICE_WONDERS && (guard->mood == GAME_GUARD_ROUND || guard->mood == GAME_GUARD_RETURNS)) {
         wonder(game, guard);
     }

@@ -261,6 +261,8 @@ void sim_guards_step(Game *game);
 void sim_guards_hear(Game *game, EnfVec3 at, double metres);
 
 typedef enum SimGoNews { SIM_GO_ON, SIM_GO_THERE, SIM_GO_NOWHERE } SimGoNews;
+/** The guard is after the player from now on: off its round if it was on it, and heard to say so; longer, if it already was. */
+void sim_guard_chase(Game *game, SimGuard *guard);
 /** A guard sets out anew. */
 void sim_walk_start(SimGuard *guard);
 /** One tick on foot: along portals, up and down stairs, round furniture, through doors, to within `near` metres. NOWHERE: every way it

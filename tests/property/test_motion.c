@@ -47,6 +47,22 @@ static void test_path_bounds_hold_every_state(void **state) {
     }
 }
 
+/* One segment of a cubic translation, 1000 ticks long; `values` must outlive it. */
+static EnfMotion random_cubic(EnfTestRng *rng, float values[18]) {
+    static const float times[2] = {0.0F, 1.0F};
+    for (int i = 0; i < 18; i++) {
+        values[i] = enf_test_float(rng, -5.0F, 5.0F);
+    }
+    EnfMotion motion;
+    memset(&motion, 0, sizeof motion);
+    motion.kind = ENF_MOTION_PATH;
+    motion.as.path.rest = enf_pose_identity();
+    motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
+    motion.as.path.seconds = 1.0;
+    motion.as.path.period_ticks = 1000;
+    return motion;
+}
+
 /* A cubic's values over a whole segment lie in the hull of its Bernstein coefficients: the engine's interval must lie within
  * it, and hold a dense sampling of it. So the bound is neither too small nor carelessly large. */
 static void test_cubic_bounds_are_tight(void **state) {
@@ -54,18 +70,8 @@ static void test_cubic_bounds_are_tight(void **state) {
     EnfTestRng rng = enf_test_rng(2);
     const EnfBox3 point = {{0, 0, 0}, {0, 0, 0}};
     for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
-        float times[2] = {0.0F, 1.0F};
         float values[18];
-        for (int i = 0; i < 18; i++) {
-            values[i] = enf_test_float(&rng, -5.0F, 5.0F);
-        }
-        EnfMotion motion;
-        memset(&motion, 0, sizeof motion);
-        motion.kind = ENF_MOTION_PATH;
-        motion.as.path.rest = enf_pose_identity();
-        motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
-        motion.as.path.seconds = 1.0;
-        motion.as.path.period_ticks = 1000;
+        EnfMotion motion = random_cubic(&rng, values);
         EnfBox3 box = enf_motion_bound(&motion, &point, 0, 1000);
         double low = HUGE_VAL;
         double high = -HUGE_VAL;
@@ -119,18 +125,8 @@ static void test_bounds_hold_interval_evaluation(void **state) {
     EnfTestRng rng = enf_test_rng(7);
     const EnfBox3 point = {{0, 0, 0}, {0, 0, 0}};
     for (uint32_t r = 0; r < enf_test_rounds(3000, 100000); r++) {
-        float times[2] = {0.0F, 1.0F};
         float values[18];
-        for (int i = 0; i < 18; i++) {
-            values[i] = enf_test_float(&rng, -5.0F, 5.0F);
-        }
-        EnfMotion motion;
-        memset(&motion, 0, sizeof motion);
-        motion.kind = ENF_MOTION_PATH;
-        motion.as.path.rest = enf_pose_identity();
-        motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
-        motion.as.path.seconds = 1.0;
-        motion.as.path.period_ticks = 1000;
+        EnfMotion motion = random_cubic(&rng, values);
         int64_t tick0 = enf_test_below(&rng, 1000);
         int64_t tick1 = tick0 + 1 + enf_test_below(&rng, (uint32_t)(1000 - tick0));
         EnfBox3 box = enf_motion_bound(&motion, &point, tick0, tick1);

@@ -44,13 +44,7 @@ static int close_palace(void **state) {
 
 /* Off its round and after the player, who may be anywhere. */
 static void send_after(SimGuard *guard) {
-    if (guard->mood != GAME_GUARD_CHASES) {
-        EnfCharacterDef def = guard->body.def;
-        enf_character_spawn(&guard->body, game->collider, &def, guard->body.position);
-        guard->body.object = guard->object.index;
-        guard->mood = GAME_GUARD_CHASES;
-        sim_walk_start(guard);
-    }
+    sim_guard_chase(game, guard);
     guard->until = sim_tick(game) + 600;
     guard->last_seen = game->player.body.position;
     guard->last_cell = sim_feet_cell(game, &game->player.body);

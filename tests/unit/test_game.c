@@ -1,92 +1,10 @@
 /* The rules of the game in two rooms: won, lost, doors and their portals, keys, elevator, sight, hearing, restart, heap, hashes. */
-#include "harness/harness.h"
-#include "scenes/night.h"
-
-#include "sim/bot.h"
+#include "unit/night_play.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct Count {
-    uint64_t calls;
-    size_t bytes;
-} Count;
-
-static void *counting_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Count *count = user;
-    count->calls++;
-    count->bytes += new_size - old_size;
-    return enf_default_allocator()->resize(enf_default_allocator()->user, block, old_size, new_size);
-}
-
-typedef struct Play {
-    EnfNight night;
-    Game *game;
-    Count count;
-    uint32_t heard[GAME_SOUND_COUNT]; /* how often */
-} Play;
-
-static void open_play(Play *play, EnfNightDef def, bool peaceful) {
-    memset(play, 0, sizeof *play);
-    EnfError error = {ENF_OK, 0, "", ""};
-    if (!enf_night_create(&play->night, &def, &error)) {
-        fail_msg("%s", error.message);
-    }
-    GameDef game = game_def_default();
-    game.peaceful = peaceful;
-    EnfAllocator allocator = {counting_resize, &play->count};
-    assert_int_equal(game_create(&play->game, play->night.map, &game, &allocator, &error), ENF_OK);
-}
-
-static void close_play(Play *play) {
-    game_destroy(play->game);
-    assert_int_equal(play->count.bytes, 0);
-    enf_night_destroy(&play->night);
-}
-
-static void step(Play *play, const EnfInput *input) {
-    game_step(play->game, input);
-    uint32_t count;
-    const GameSound *sounds = game_sounds(play->game, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        play->heard[sounds[i].kind]++;
-    }
-}
-
-static void wait(Play *play, int ticks) {
-    static const EnfInput nothing;
-    for (int i = 0; i < ticks; i++) {
-        step(play, &nothing);
-    }
-}
-
-/* Plays a script to its end; inputs and hashes are kept if asked for. Returns the ticks. */
-static uint32_t run(Play *play, const char *script, EnfInput *inputs, uint64_t *hashes, uint32_t most) {
-    EnfError error = {ENF_OK, 0, "", ""};
-    GameBot *bot;
-    if (game_bot_create(&bot, play->game, script, strlen(script), NULL, &error) != ENF_OK) {
-        fail_msg("%s", error.message);
-    }
-    EnfInput input;
-    GameBotNews news;
-    uint32_t ticks = 0;
-    while ((news = game_bot_next(bot, &input, &error)) == GAME_BOT_GOES_ON && ticks < most) {
-        step(play, &input);
-        if (inputs) {
-            inputs[ticks] = input;
-            hashes[ticks] = game_hash(play->game);
-        }
-        ticks++;
-    }
-    game_bot_destroy(bot);
-    if (news != GAME_BOT_DONE) {
-        fail_msg("%s", error.message);
-    }
-    return ticks;
-}
-
 static const char THEFT[] = "enfbot 1\nrun on\ntake vase\ngoto exit\nexpect won 1\n";
-enum { MOST = 20000 };
 static EnfInput inputs[MOST];
 static uint64_t hashes[MOST];
 
@@ -97,7 +15,7 @@ static void test_a_theft_is_won(void **state) {
     const GameState *shown = game_state(play.game);
     assert_int_equal(shown->exhibits, 1);
     assert_int_equal(shown->wanted, 1);
-    assert_true(run(&play, THEFT, NULL, NULL, MOST) > 60);
+    assert_true(run(&play, THEFT) > 60);
     assert_int_equal(shown->phase, GAME_WON);
     assert_int_equal(shown->score, 3);
     assert_int_equal(shown->delivered, 1);
@@ -120,10 +38,10 @@ static void test_a_door_opens_its_portal_and_shuts_it(void **state) {
     Play play;
     open_play(&play, (EnfNightDef){.door = true}, false);
     assert_false(enf_portals_is_open(game_portals(play.game), play.night.portal));
-    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\n");
     assert_true(enf_portals_is_open(game_portals(play.game), play.night.portal)); /* with the first tick of its turn */
     assert_int_equal(play.heard[GAME_SOUND_DOOR_OPEN], 1);
-    run(&play, "enfbot 1\ngoto point 2 0 4\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ngoto point 2 0 4\n");
     int ticks = 0;
     for (; play.heard[GAME_SOUND_DOOR_SHUT] == 0 && ticks < 1200; ticks++) {
         assert_true(enf_portals_is_open(game_portals(play.game), play.night.portal)); /* while it gapes */
@@ -138,7 +56,7 @@ static void test_a_door_does_not_shut_on_somebody(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.door = true}, false);
-    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\nwait 1.5\ngoto point 7.8 0 4\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\nwait 1.5\ngoto point 7.8 0 4\n");
     wait(&play, 1200);
     assert_int_equal(play.heard[GAME_SOUND_DOOR_SHUT], 0);
     assert_true(enf_portals_is_open(game_portals(play.game), play.night.portal));
@@ -149,7 +67,7 @@ static void test_a_door_does_not_shut_on_somebody(void **state) {
 static double leaf_after(const char *script) {
     Play play;
     open_play(&play, (EnfNightDef){.door = true, .swings = true}, false);
-    run(&play, script, NULL, NULL, MOST);
+    run(&play, script);
     uint32_t door = ENF_NONE;
     for (uint32_t i = 0; i < play.night.map->movers_count; i++) {
         door = play.night.map->movers[i].kind == ENF_MOVER_HINGE ? i : door;
@@ -172,10 +90,10 @@ static void test_a_lock_wants_its_key(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.door = true, .locked = true}, false);
-    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\nwait 0.5\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ngoto point 6.5 0 4\npress door\nwait 0.5\n");
     assert_int_equal(play.heard[GAME_SOUND_DOOR_LOCKED], 1);
     assert_false(enf_portals_is_open(game_portals(play.game), play.night.portal));
-    run(&play, "enfbot 1\ntake key\ntake vase\ngoto exit\nexpect won 1\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ntake key\ntake vase\ngoto exit\nexpect won 1\n");
     assert_int_equal(game_state(play.game)->exhibits, 1); /* a key is none */
     assert_int_equal(play.heard[GAME_SOUND_TAKE_KEY], 1);
     assert_int_equal(play.heard[GAME_SOUND_DOOR_UNLOCKED], 1);
@@ -206,7 +124,7 @@ static void test_an_elevator_carries(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.lift = true}, false);
-    run(&play, "enfbot 1\ngoto point 6 0 7\nlook by 0 -80\nuse\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\ngoto point 6 0 7\nlook by 0 -80\nuse\n");
     wait(&play, 240);
     const GameState *shown = game_state(play.game);
     assert_true(fabs(shown->eye_ws.y - (2.125 + 1.63)) < 0.05);
@@ -215,7 +133,7 @@ static void test_an_elevator_carries(void **state) {
     assert_int_equal(play.heard[GAME_SOUND_LIFT_RINGS], 1);
     close_play(&play);
     open_play(&play, (EnfNightDef){.lift = true}, false);
-    run(&play, "enfbot 1\npress button\nwait 3\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\npress button\nwait 3\n");
     assert_int_equal(play.heard[GAME_SOUND_SWITCH], 1);
     assert_int_equal(play.heard[GAME_SOUND_LIFT_STOPS], 1);
     close_play(&play);
@@ -225,13 +143,13 @@ static void test_a_guard_catches_whom_it_sees(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.guard = true}, false);
-    run(&play, "enfbot 1\nwait 5\ngoto point 11.5 0 4\nexpect lost 40\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\nwait 5\ngoto point 11.5 0 4\nexpect lost 40\n");
     assert_int_equal(play.heard[GAME_SOUND_LOST], 1);
     assert_int_equal(play.heard[GAME_SOUND_CAUGHT], 1);
     assert_true(play.heard[GAME_SOUND_GUARD_SEES] > 0);
     close_play(&play);
     open_play(&play, (EnfNightDef){.guard = true}, true);
-    run(&play, "enfbot 1\nwait 5\ngoto point 10 0 4\nwait 40\nexpect playing 1\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\nwait 5\ngoto point 10 0 4\nwait 40\nexpect playing 1\n");
     close_play(&play);
 }
 
@@ -251,14 +169,14 @@ static void test_noise_brings_a_guard(void **state) {
     Play play;
     open_play(&play, (EnfNightDef){.door = true, .guard = true}, false);
     for (int i = 0; i < 12 && play.heard[GAME_SOUND_GUARD_WONDERS] == 0; i++) { /* up and down behind the shut door */
-        run(&play, "enfbot 1\nrun on\ngoto point 7 0 2\ngoto point 7 0 6\n", NULL, NULL, MOST);
+        run(&play, "enfbot 1\nrun on\ngoto point 7 0 2\ngoto point 7 0 6\n");
     }
     uint32_t wonders = play.heard[GAME_SOUND_GUARD_WONDERS];
     assert_true(wonders > 0);
     close_play(&play);
     open_play(&play, (EnfNightDef){.door = true, .guard = true}, false);
     for (int i = 0; i < 4; i++) {
-        run(&play, "enfbot 1\ncrouch on\ngoto point 7 0 2\ngoto point 7 0 6\n", NULL, NULL, MOST);
+        run(&play, "enfbot 1\ncrouch on\ngoto point 7 0 2\ngoto point 7 0 6\n");
     }
     assert_int_equal(play.heard[GAME_SOUND_GUARD_WONDERS], 0);
     close_play(&play);
@@ -269,7 +187,7 @@ static void test_sounds_come_from_the_doorway(void **state) {
     Play play;
     /* The lift stops in the west while the player is in the east. */
     open_play(&play, (EnfNightDef){.lift = true}, true);
-    run(&play, "enfbot 1\nrun on\ngoto point 7 0 6\npress button\ngoto cell east-room\nlook by 1 0\n", NULL, NULL, MOST);
+    run(&play, "enfbot 1\nrun on\ngoto point 7 0 6\npress button\ngoto cell east-room\nlook by 1 0\n");
     bool found = false;
     for (int i = 0; i < 600 && !found; i++) {
         uint32_t count;
@@ -298,8 +216,8 @@ static void test_games_repeat_bit_for_bit(void **state) {
     GameField before[GAME_FIELDS_MAX], after[GAME_FIELDS_MAX];
     uint32_t fields = game_fields(play.game, before);
     uint64_t start = game_hash(play.game);
-    uint32_t ticks = run(&play, "enfbot 1\nwait 5\nrun on\ngoto point 9 0 6\ngoto point 10 0 4\nwait 30\nwalk 1 0 2\n", inputs,
-                         hashes, MOST);
+    uint32_t ticks = run_traced(&play, "enfbot 1\nwait 5\nrun on\ngoto point 9 0 6\ngoto point 10 0 4\nwait 30\nwalk 1 0 2\n",
+                                inputs, hashes, MOST);
     for (int again = 0; again < 2; again++) {
         if (again) {
             close_play(&play);
@@ -328,7 +246,7 @@ static void test_no_heap_in_warm_ticks_and_restarts(void **state) {
     (void)state;
     Play play;
     open_play(&play, (EnfNightDef){.door = true, .guard = true, .lift = true, .lamps = true}, false);
-    uint32_t ticks = run(&play, "enfbot 1\nrun on\ntake vase\ngoto point 4 0 4\ndrop\nwait 1\n", inputs, hashes, MOST);
+    uint32_t ticks = run_traced(&play, "enfbot 1\nrun on\ntake vase\ngoto point 4 0 4\ndrop\nwait 1\n", inputs, hashes, MOST);
     uint64_t calls = 0;
     size_t bytes = 0;
     uint32_t rounds = enf_test_rounds(100, 400), done = 0;

@@ -1,68 +1,11 @@
 /* Guards off their rounds: they follow through doors, round what stands in the way and up steps, look for whom they have lost, and come
  * back. Doors and elevators do not crush. */
-#include "harness/harness.h"
-#include "scenes/night.h"
+#include "unit/night_play.h"
 
-#include "sim/bot.h"
 #include "sim/sim.h"
 
 #include <math.h>
 #include <string.h>
-
-typedef struct Play {
-    EnfNight night;
-    Game *game;
-    uint32_t heard[GAME_SOUND_COUNT];
-} Play;
-
-static void open_play(Play *play, EnfNightDef def, bool peaceful) {
-    memset(play, 0, sizeof *play);
-    EnfError error = {ENF_OK, 0, "", ""};
-    if (!enf_night_create(&play->night, &def, &error)) {
-        fail_msg("%s", error.message);
-    }
-    GameDef game = game_def_default();
-    game.peaceful = peaceful;
-    assert_int_equal(game_create(&play->game, play->night.map, &game, NULL, &error), ENF_OK);
-}
-
-static void close_play(Play *play) {
-    game_destroy(play->game);
-    enf_night_destroy(&play->night);
-}
-
-static void step(Play *play, const EnfInput *input) {
-    game_step(play->game, input);
-    uint32_t count;
-    const GameSound *sounds = game_sounds(play->game, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        play->heard[sounds[i].kind]++;
-    }
-}
-
-static void run(Play *play, const char *script) {
-    EnfError error = {ENF_OK, 0, "", ""};
-    GameBot *bot;
-    if (game_bot_create(&bot, play->game, script, strlen(script), NULL, &error) != ENF_OK) {
-        fail_msg("%s", error.message);
-    }
-    EnfInput input;
-    GameBotNews news;
-    for (int i = 0; (news = game_bot_next(bot, &input, &error)) == GAME_BOT_GOES_ON && i < 20000; i++) {
-        step(play, &input);
-    }
-    game_bot_destroy(bot);
-    if (news != GAME_BOT_DONE) {
-        fail_msg("%s", error.message);
-    }
-}
-
-static void wait(Play *play, int ticks) {
-    static const EnfInput nothing;
-    for (int i = 0; i < ticks; i++) {
-        step(play, &nothing);
-    }
-}
 
 /* The guard has seen the player, wherever he is. */
 static void tell(Game *game) {
@@ -70,16 +13,10 @@ static void tell(Game *game) {
     game->random = 1;
     guard->notice = 1.0;
     guard->seen_at = sim_tick(game);
+    sim_guard_chase(game, guard);
     guard->until = sim_tick(game) + 600;
     guard->last_seen = game->player.body.position;
     guard->last_cell = game->player.body.cell;
-    if (guard->mood != GAME_GUARD_CHASES) {
-        EnfCharacterDef def = guard->body.def;
-        enf_character_spawn(&guard->body, game->collider, &def, guard->body.position);
-        guard->body.object = guard->object.index;
-        guard->mood = GAME_GUARD_CHASES;
-        sim_walk_start(guard);
-    }
 }
 
 /* On the stage, behind a shut door and a screen: the guard opens the one, goes round the other, climbs the steps. */
