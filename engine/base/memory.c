@@ -1,9 +1,18 @@
 /* The allocator, the arena and checked sizes: every byte that the engine takes passes here, and no product of sizes
  * overflows unseen. */
+#if defined(__linux__) && !defined(_DEFAULT_SOURCE)
+#define _DEFAULT_SOURCE /* madvise */
+#endif
+
 #include <enfilade/base.h>
 
 #include <stdlib.h>
 #include <string.h>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 /* Boxes and SIMD blocks in an arena start on whole AVX registers. */
 enum { ARENA_ALIGN = 32 };
@@ -24,6 +33,23 @@ bool enf_size_mul(size_t a, size_t b, size_t *out) {
 
 /* ---- allocator -------------------------------------------------------------------------------------------------- */
 
+/* Blocks of so many bytes hold records that are asked for here and there: in pages of 4 KiB, finding the page costs more than the
+ * record itself. */
+enum { LARGE_BLOCK = 2 << 20 };
+
+/* Asks the system for large pages, where it leaves that to programs; a hint, which changes no byte of the pages at both ends either. */
+static void *on_large_pages(void *block, size_t bytes) {
+#if defined(__linux__) && defined(MADV_HUGEPAGE)
+    if (block != NULL && bytes >= LARGE_BLOCK) {
+        size_t before = (uintptr_t)block & ((size_t)sysconf(_SC_PAGESIZE) - 1);
+        (void)madvise((char *)block - before, bytes + before, MADV_HUGEPAGE);
+    }
+#else
+    (void)bytes;
+#endif
+    return block;
+}
+
 static void *resize_with_libc(void *user, void *block, size_t old_size, size_t new_size) {
     (void)user;
     (void)old_size;
@@ -31,7 +57,7 @@ static void *resize_with_libc(void *user, void *block, size_t old_size, size_t n
         free(block);
         return NULL;
     }
-    return realloc(block, new_size);
+    return on_large_pages(realloc(block, new_size), new_size);
 }
 
 const EnfAllocator *enf_default_allocator(void) {
@@ -50,7 +76,7 @@ void *enf_alloc(const EnfAllocator *allocator, size_t count, size_t size) {
     }
     allocator = or_default(allocator);
     if (allocator->resize == resize_with_libc) {
-        return calloc(1, bytes); /* fresh pages are zero already: a large block is not touched here */
+        return on_large_pages(calloc(1, bytes), bytes); /* fresh pages are zero already: a large block is not touched here */
     }
     void *block = allocator->resize(allocator->user, NULL, 0, bytes);
     return block ? memset(block, 0, bytes) : NULL;

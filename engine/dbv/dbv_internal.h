@@ -7,7 +7,8 @@
  *   wheel.c   the expiry queue
  *   period.c  how long a volume is valid (the policies)
  *   reach.c   where an object may get that passes no wall
- *   frame.c   begin, see, end
+ *   frame.c   begin, end
+ *   look.c    see
  *   index.c   memory */
 #ifndef ENFILADE_DBV_INTERNAL_H
 #define ENFILADE_DBV_INTERNAL_H
@@ -59,6 +60,7 @@ static inline EnfDbvBlock *enf_dbv_block(const EnfDbvPool *pool, uint32_t number
 typedef struct EnfDbvFit {
     EnfBox3f own, all; /**< on the place itself; there and on all places beneath. World; empty: min > max */
     bool loose;        /**< something was taken out since `own` was fitted */
+    bool shown;        /**< of a loose one, while a window looks: it shows one of its own volumes */
 } EnfDbvFit;
 
 /** All places: the nodes of the map's tree over cells, the cells, the kd nodes of all cells; and again the cells, for what can walk
@@ -127,7 +129,10 @@ struct EnfDbvIndex {
     uint32_t volume_count, volume_capacity, alive_count;
     EnfDbvExposure *exposures;
     uint32_t exposure_count, exposure_capacity;
-    EnfDbvList due, drawn, candidates;
+    EnfDbvList due, drawn;
+    EnfDbvList blocks, loose,
+        candidates;     /**< of one look: blocks to be tested, places to be fitted, objects whose volumes show */
+    EnfDbvList scratch; /**< of a sort */
     EnfDbvSeen seen[ENF_DBV_SEEN_LISTED]; /**< the first of the cells seen in hot_frame */
     uint32_t seen_count;                  /**< of these cells: all */
     double approach;                      /**< the share of its way to the nearest seen cell that a volume may take */
@@ -153,6 +158,11 @@ static inline void enf_dbv_prefetch_block(const EnfDbvBlock *block) {
     for (size_t at = 0; at < sizeof *block; at += 64) {
         enf_dbv_prefetch((const char *)block + at);
     }
+}
+
+/** A number below `count`: always the same for an object, and different for its neighbours (Knuth 1973, vol. 3, §6.4). */
+static inline uint32_t enf_dbv_scatter(uint32_t object, uint32_t count) {
+    return (uint32_t)((uint64_t)(object * UINT32_C(2654435761)) * count >> 32);
 }
 
 /* blocks.c */
@@ -308,6 +318,8 @@ bool enf_dbv_list_add(EnfDbvIndex *index, EnfDbvList *list, uint32_t item); /**<
 /** Sorts numbers by `before`, in place, without heap or recursion (Shell sort, Ciura's gaps): for short lists. */
 typedef bool EnfDbvBefore(const EnfDbvIndex *index, uint32_t a, uint32_t b);
 void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *before);
+/** Sorts the numbers from the `first` on, ascending (radix sort by bytes). */
+void enf_dbv_sort_numbers(EnfDbvIndex *index, EnfDbvList *list, uint32_t first);
 /** A larger copy of an array in place of the old one; false leaves all as it was. */
 bool enf_dbv_enlarge(EnfDbvIndex *index, void **array, uint32_t used, uint32_t *capacity, uint32_t count, size_t size);
 bool enf_dbv_reserve_volumes(EnfDbvIndex *index, uint32_t count);

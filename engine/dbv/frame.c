@@ -1,11 +1,12 @@
-/* A frame of the index: begin (changes and expiries), see (exposure by visible windows), end (new volumes for what was exposed).
- * Its cost follows what is seen, what expired and what changed; hidden objects are not touched (DESIGN §5). */
+/* A frame of the index: begin (changes and expiries), see (look.c), end (new volumes for what was exposed). Its cost follows what is
+ * seen, what expired and what changed; hidden objects are not touched (DESIGN §5). */
 #include "dbv/dbv_internal.h"
 
 #include <string.h>
 
-/* Objects that were exposed and not drawn get new volumes, so many a frame and a share of the rest: when a long view opens, or the eye
- * jumps, it is paid for in instalments. The others are exposed again in the next frame, which costs less. */
+/* Objects that were exposed and not drawn get new volumes, so many a frame and a share of those that were exposed before: when a long
+ * view opens, or the eye jumps, it is paid for in instalments, the first of which is finding what came into sight. The others are
+ * exposed again in the next frame, which costs less. */
 #define RENEWED_A_FRAME 8U
 #define RENEWED_SHARE 8U
 
@@ -113,174 +114,6 @@ EnfResult enf_dbv_begin(EnfDbvIndex *index, EnfError *error) {
     return ok ? ENF_OK : enf_error_set(error, ENF_ERROR_MEMORY, UINT64_MAX, "no memory for volumes");
 }
 
-/* ---- see -------------------------------------------------------------------------------------------------------- */
-
-/* The exposure of an object in this frame; its motion is evaluated once. NULL without memory. */
-static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
-    EnfDbvVolume *volume = &index->volumes[object];
-    if (volume->exposed_frame != index->frame) {
-        if (!enf_dbv_reserve_exposures(index, index->exposure_count + 1)) {
-            index->failed = true;
-            return NULL;
-        }
-        index->counters.appeared += volume->exposed_frame != index->frame - 1 ? 1U : 0U;
-        volume->exposed_frame = index->frame;
-        volume->exposure = index->exposure_count++;
-        EnfDbvExposure exposure = {object, false, enf_world_seen_box(index->world, object)};
-        index->exposures[volume->exposure] = exposure;
-        index->counters.exposed++;
-        index->counters.late += volume->expiry_tick < enf_world_tick(index->world) ? 1U : 0U;
-    }
-    return &index->exposures[volume->exposure];
-}
-
-/* A window as the steps of one enf_dbv_see use it. */
-typedef struct Look {
-    uint32_t cell;
-    EnfBox3f limits;           /* the cell's, world */
-    const EnfPyramid *pyramid; /* relative to the cell */
-    const EnfSimd *simd;
-    EnfSimdPlanes planes; /* of world boxes */
-} Look;
-
-static inline bool is_near(const Look *look, const EnfBox3f *box) {
-    return enf_dbv_touches(&look->limits, box);
-}
-
-/* Is an object with this box seen? By its touching the cell and passing the pyramid. */
-static bool shows(const EnfDbvIndex *index, const Look *look, const EnfBox3f *box) {
-    return is_near(look, box) && enf_pyramid_box(look->pyramid, enf_world_box_in_cell(index->map, look->cell, *box));
-}
-
-/* Objects of one block whose volumes the window shows; how many. */
-static uint32_t gather(EnfDbvIndex *index, const Look *look, const EnfDbvBlock *block, uint32_t mask) {
-    uint32_t count = 0;
-    for (uint32_t shown = mask & 0xff; shown != 0; shown &= shown - 1) {
-        uint32_t lane = enf_simd_lowest(shown);
-        uint32_t object = block->boxes.item[lane] / ENF_DBV_LINKS;
-        EnfBox3f box = enf_dbv_lane(&block->boxes, lane);
-        if (is_near(look, &box)) {
-            index->failed = !enf_dbv_list_add(index, &index->candidates, object) || index->failed;
-            count++;
-        }
-    }
-    return count;
-}
-
-/* Every volume that hangs on a place; how many the window shows. */
-static uint32_t test_place(EnfDbvIndex *index, uint32_t place, const Look *look) {
-    uint32_t number = index->places.heads[place];
-    uint32_t count = 0;
-    while (number != ENF_NONE) {
-        const EnfDbvBlock *block = enf_dbv_block(&index->pool, number);
-        number = block->next;
-        if (number != ENF_NONE) {
-            enf_dbv_prefetch_block(enf_dbv_block(&index->pool, number));
-        }
-        uint32_t mask = look->simd->boxes(&look->planes, block->boxes.min_x, look->planes.all);
-        index->counters.tested += block->count;
-        count += gather(index, look, block, mask);
-    }
-    return count;
-}
-
-/* The kd nodes of a cell that the pyramid passes and that have entries at or beneath them. Of another cell than the seen one, whose
- * box it reaches into, all. */
-static void test_tree(EnfDbvIndex *index, uint32_t cell, const Look *look) {
-    const EnfDbvPlaces *places = &index->places;
-    const EnfCell *c = &index->map->cells[cell];
-    uint32_t first = places->nodes_first + c->node_first;
-    uint32_t stack[ENF_KD_MAX_DEPTH + 1];
-    uint32_t depth = 0;
-    if (c->node_count > 0 && places->below[first] > 0) {
-        stack[depth++] = 0;
-    }
-    while (depth > 0) {
-        uint32_t at = stack[--depth];
-        const EnfKdNode *node = &index->map->kd_nodes[c->node_first + at];
-        EnfBox3f box = {{node->min[0], node->min[1], node->min[2]}, {node->max[0], node->max[1], node->max[2]}};
-        if (cell == look->cell && !enf_pyramid_box(look->pyramid, box)) {
-            continue;
-        }
-        (void)test_place(index, first + at, look);
-        const uint32_t pair[2] = {at + 1, node->link};
-        for (uint32_t i = 0; i < 2 && node->block_count == 0; i++) {
-            if (places->below[first + pair[i]] > 0) {
-                stack[depth++] = pair[i];
-            }
-        }
-    }
-}
-
-/* A node's or cell's own volumes. A look that came for nothing fits the box that led to it. */
-static void test_own(EnfDbvIndex *index, uint32_t place, const Look *look) {
-    const EnfDbvFit *fit = &index->places.fits[place];
-    if (is_near(look, &fit->own) && test_place(index, place, look) == 0 && fit->loose) {
-        enf_dbv_fit(index, place);
-    }
-}
-
-static void test_place_and_tree(EnfDbvIndex *index, uint32_t place, const Look *look) {
-    if (place >= index->places.cells_first) {
-        test_tree(index, place - index->places.cells_first, look);
-    }
-    test_own(index, place, look);
-}
-
-/* All places whose volumes reach into the seen cell. */
-static void test_all(EnfDbvIndex *index, const Look *look) {
-    const EnfDbvPlaces *places = &index->places;
-    EnfDbvWalk walk = enf_dbv_walk(places);
-    for (uint32_t place = enf_dbv_walk_next(&walk); place != ENF_NONE; place = enf_dbv_walk_next(&walk)) {
-        if (is_near(look, &places->fits[place].all)) {
-            test_place_and_tree(index, place, look);
-            enf_dbv_walk_enter(&walk, place);
-        }
-    }
-    uint32_t cell = places->cells_first + look->cell;
-    if (places->parents[cell] == ENF_NONE && is_near(look, &places->fits[cell].all)) {
-        test_place_and_tree(index, cell, look); /* OUTSIDE: what lies in no room */
-    }
-}
-
-/* What comes into sight was hidden, and its memory is cold: asked for ahead of its turn, and what its motion names a little later. */
-static void prefetch_candidate(const EnfDbvIndex *index, uint32_t i) {
-    const uint32_t *candidates = index->candidates.items;
-    if (i + 12 < index->candidates.count) {
-        enf_dbv_prefetch(&index->volumes[candidates[i + 12]]);
-        enf_world_prefetch(index->world, candidates[i + 12]);
-    }
-    if (i + 6 < index->candidates.count) {
-        enf_world_prefetch_named(index->world, candidates[i + 6]);
-    }
-}
-
-/* The objects themselves: the volumes only said which might be seen. */
-static void expose_candidates(EnfDbvIndex *index, const Look *look) {
-    for (uint32_t i = 0; i < index->candidates.count; i++) {
-        prefetch_candidate(index, i);
-        EnfDbvExposure *exposure = expose(index, index->candidates.items[i]);
-        if (exposure != NULL && !exposure->drawn && shows(index, look, &exposure->box)) {
-            exposure->drawn = true;
-        }
-    }
-}
-
-void enf_dbv_see(EnfDbvIndex *index, uint32_t cell, const EnfPyramid *pyramid) {
-    const EnfDbvPlaces *places = &index->places;
-    Look look;
-    look.cell = cell;
-    look.limits = places->limits[places->cells_first + cell];
-    look.pyramid = pyramid;
-    look.simd = enf_simd();
-    enf_dbv_planes(index, cell, pyramid, &look.planes);
-    enf_dbv_note_seen(index, cell);
-    index->candidates.count = 0;
-    (void)test_place(index, places->walks_first + cell, &look);
-    test_all(index, &look);
-    expose_candidates(index, &look);
-}
-
 /* ---- end -------------------------------------------------------------------------------------------------------- */
 
 /* Is a volume left until it ends? A drawn object will be evaluated in the next frame whatever its volume; one that showed and its
@@ -311,7 +144,8 @@ static void prefetch_exposed(const EnfDbvIndex *index, uint32_t i) {
 /* New volumes for what was exposed, or the old ones cut. */
 static void renew_exposed(EnfDbvIndex *index) {
     uint32_t renewed = 0;
-    uint32_t most = RENEWED_A_FRAME + (index->exposure_count - index->drawn.count) / RENEWED_SHARE;
+    uint32_t known = index->exposure_count - (uint32_t)index->counters.appeared;
+    uint32_t most = RENEWED_A_FRAME + (known > index->drawn.count ? known - index->drawn.count : 0) / RENEWED_SHARE;
     bool shortens = enf_dbv_keeps_off_seen(index);
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];
@@ -328,11 +162,6 @@ static void renew_exposed(EnfDbvIndex *index) {
             }
         }
     }
-}
-
-static bool ascending(const EnfDbvIndex *index, uint32_t a, uint32_t b) {
-    (void)index;
-    return a < b;
 }
 
 static void add_counters(EnfDbvCounters *total, const EnfDbvCounters *frame) {
@@ -353,7 +182,7 @@ const uint32_t *enf_dbv_end(EnfDbvIndex *index, uint32_t *count) {
             index->failed = true;
         }
     }
-    enf_dbv_sort(index, &index->drawn, ascending);
+    enf_dbv_sort_numbers(index, &index->drawn, 0);
     index->counters.drawn = index->drawn.count;
     renew_exposed(index);
     uint64_t touched = index->counters.exposed + index->counters.expired;

@@ -88,7 +88,10 @@ void enf_dbv_destroy(EnfDbvIndex *index) {
     enf_free(index->allocator, index->exposures, index->exposure_capacity, sizeof *index->exposures);
     free_list(index, &index->due);
     free_list(index, &index->drawn);
+    free_list(index, &index->blocks);
+    free_list(index, &index->loose);
     free_list(index, &index->candidates);
+    free_list(index, &index->scratch);
     enf_free(index->allocator, index, 1, sizeof *index);
 }
 
@@ -137,7 +140,7 @@ bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
 static bool reserve_lists(EnfDbvIndex *index, uint32_t count) {
     enum { LISTED = 4096 };
     uint32_t room = count < LISTED ? count : LISTED;
-    EnfDbvList *lists[] = {&index->due, &index->candidates, &index->drawn};
+    EnfDbvList *lists[] = {&index->due, &index->drawn, &index->blocks, &index->candidates, &index->scratch};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         void *items = lists[i]->items;
         if (!enf_dbv_enlarge(index, &items, lists[i]->count, &lists[i]->capacity, room, sizeof *lists[i]->items)) {
@@ -176,6 +179,54 @@ void enf_dbv_sort(const EnfDbvIndex *index, EnfDbvList *list, EnfDbvBefore *befo
             }
             items[j] = moved;
         }
+    }
+}
+
+static bool ascending(const EnfDbvIndex *index, uint32_t a, uint32_t b) {
+    (void)index;
+    return a < b;
+}
+
+/* One pass: by the byte at `shift`, from one array into the other. */
+static void sort_by_byte(const uint32_t *from, uint32_t *to, uint32_t count, uint32_t shift) {
+    uint32_t starts[256] = {0};
+    for (uint32_t i = 0; i < count; i++) {
+        starts[from[i] >> shift & 255U]++;
+    }
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b < 256; b++) {
+        uint32_t here = starts[b];
+        starts[b] = sum;
+        sum += here;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        to[starts[from[i] >> shift & 255U]++] = from[i];
+    }
+}
+
+void enf_dbv_sort_numbers(EnfDbvIndex *index, EnfDbvList *list, uint32_t first) {
+    void *items = index->scratch.items;
+    uint32_t *numbers = list->items + first;
+    uint32_t count = list->count - first;
+    if (count < 2) {
+        return;
+    }
+    if (!enf_dbv_enlarge(index, &items, 0, &index->scratch.capacity, count, sizeof *numbers)) {
+        EnfDbvList part = {numbers, count, count};
+        enf_dbv_sort(index, &part, ascending);
+        return;
+    }
+    index->scratch.items = items;
+    uint32_t *from = numbers;
+    uint32_t *to = index->scratch.items;
+    for (uint32_t shift = 0; shift < 32 && index->volume_count >> shift > 0; shift += 8) {
+        sort_by_byte(from, to, count, shift);
+        uint32_t *swapped = from;
+        from = to;
+        to = swapped;
+    }
+    if (from != numbers) {
+        memcpy(numbers, from, count * sizeof *numbers);
     }
 }
 
@@ -220,7 +271,8 @@ EnfDbvState enf_dbv_state(const EnfDbvIndex *index, uint32_t object) {
 }
 
 size_t enf_dbv_bytes(const EnfDbvIndex *index) {
-    size_t lists = index->due.capacity + index->drawn.capacity + index->candidates.capacity;
+    size_t lists = (size_t)index->due.capacity + index->drawn.capacity + index->blocks.capacity + index->loose.capacity +
+                   index->candidates.capacity + index->scratch.capacity;
     size_t portals = index->portal_boxes == NULL ? 0 : (size_t)index->map->portals_count + 1;
     size_t queue = index->wheel.capacity * sizeof *index->wheel.chunks;
     return sizeof *index + queue + portals * sizeof *index->portal_boxes + enf_dbv_pool_bytes(&index->pool) +

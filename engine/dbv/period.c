@@ -20,6 +20,9 @@
 #define APPROACH_CROWD 8U
 /* Few rooms hold a volume that walks, so that it is not worth asking for what would fly so many rooms' lengths anyway. */
 #define WALK 0.35
+/* How much of its time to the portal of a seen cell a volume that walks may last. All of it would hold the room's whole crowd the
+ * moment a door opens on it. */
+#define WALK_APPROACH 0.6
 /* How far a volume may reach through a wall, in rooms' lengths. */
 #define NEAR_WALL 0.0625
 /* What is shortened ends in that many ticks and a part of so many more, each object at its own. */
@@ -30,14 +33,12 @@
 /* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
  * does not expire in one (PITFALLS 23). Takes off up to an eighth. */
 static uint32_t spread(uint32_t period, uint32_t object) {
-    uint32_t hash = object * UINT32_C(2654435761);
-    return period - (uint32_t)(((uint64_t)period * (hash >> 16)) >> 19);
+    return period - enf_dbv_scatter(object, period) / 8;
 }
 
 /* A crowd that was made in one tick and whose periods are equal would end in one for ever: the first period is any part of it. */
 static uint32_t first_share(uint32_t period, uint32_t object) {
-    uint32_t hash = (object * UINT32_C(2654435761)) >> 8;
-    return 1U + hash % period;
+    return 1U + enf_dbv_scatter(object, period);
 }
 
 static uint32_t clamp_period(const EnfDbvIndex *index, double ticks) {
@@ -52,8 +53,7 @@ static EnfBox3f bound_for(EnfDbvIndex *index, uint32_t object, uint32_t period) 
 /* No cell was seen yet, so nothing says how near the eye will be: short, and no two alike, so that the first seconds pay for it in
  * instalments. */
 static uint32_t blind(const EnfDbvIndex *index, uint32_t object) {
-    uint32_t hash = (object * UINT32_C(2654435761)) >> 16;
-    return clamp_period(index, (double)(DRAWN_PERIOD + hash % BLIND_PERIODS));
+    return clamp_period(index, (double)(DRAWN_PERIOD + enf_dbv_scatter(object, BLIND_PERIODS)));
 }
 
 void enf_dbv_choose_approach(EnfDbvIndex *index) {
@@ -222,7 +222,8 @@ static bool hang_reaching(EnfDbvIndex *index, uint32_t object, uint32_t period, 
         return false;
     }
     bool ever = !(speed > 0.0) || reach.limit == HUGE_VAL;
-    uint32_t longer = ever ? index->def.max_period_ticks : clamp_period(index, 0.99 * reach.limit / speed * ENF_TICK_RATE);
+    uint32_t longer = ever ? index->def.max_period_ticks
+                           : clamp_period(index, WALK_APPROACH * reach.limit / speed * ENF_TICK_RATE);
     longer = spread(longer, object);
     double far = 1.001 * speed * (double)longer / ENF_TICK_RATE;
     if (longer - longer / 3 < period || !(far < reach.limit || ever)) {
@@ -262,8 +263,7 @@ void enf_dbv_renew(EnfDbvIndex *index, uint32_t object, EnfDbvCause cause) {
  * made anew when they end: few a tick. */
 bool enf_dbv_shorten(EnfDbvIndex *index, uint32_t object) {
     EnfDbvVolume *volume = &index->volumes[object];
-    uint32_t hash = (object * UINT32_C(2654435761)) >> 16;
-    uint32_t period = DRAWN_PERIOD + hash % SHORT_PERIODS;
+    uint32_t period = DRAWN_PERIOD + enf_dbv_scatter(object, SHORT_PERIODS);
     int64_t now = enf_world_tick(index->world);
     if (volume->expiry_tick - now <= 2 * (int64_t)period) {
         return false;

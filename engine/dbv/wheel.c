@@ -58,8 +58,7 @@ static void drop_chunk(EnfDbvWheel *wheel, uint32_t slot) {
 static uint32_t slot_of(const EnfDbvWheel *wheel, uint32_t object, int64_t tick) {
     int64_t ahead = tick - wheel->now;
     if (ahead >= ENF_DBV_SLOTS) {
-        uint32_t hash = (object * UINT32_C(2654435761)) >> 16;
-        ahead = ENF_DBV_SLOTS / 2 + hash % (ENF_DBV_SLOTS / 2);
+        ahead = ENF_DBV_SLOTS / 2 + enf_dbv_scatter(object, ENF_DBV_SLOTS / 2);
     }
     return (uint32_t)(uint64_t)(wheel->now + ahead) & MASK;
 }
@@ -101,10 +100,13 @@ void enf_dbv_wheel_remove(EnfDbvIndex *index, uint32_t object) {
     }
 }
 
-/* Empties a slot: what is due goes to the list, the rest waits on. */
+/* Empties a slot: what is due goes to the list, the rest waits on. The volumes are asked for while the slot is read, and looked at
+ * afterwards. */
 static bool take_slot(EnfDbvIndex *index, uint32_t slot, int64_t tick) {
     EnfDbvWheel *wheel = &index->wheel;
+    EnfDbvList *due = &index->due;
     uint32_t number = wheel->heads[slot];
+    uint32_t first = due->count;
     wheel->heads[slot] = ENF_NONE;
     wheel->occupied[slot / 64] &= ~(UINT64_C(1) << slot % 64);
     bool ok = true;
@@ -114,18 +116,24 @@ static bool take_slot(EnfDbvIndex *index, uint32_t slot, int64_t tick) {
         wheel->free_head = number;
         for (uint32_t i = 0; i < chunk.count; i++) {
             enf_dbv_prefetch(&index->volumes[chunk.items[i]]);
-        }
-        for (uint32_t i = 0; i < chunk.count; i++) {
-            EnfDbvVolume *volume = &index->volumes[chunk.items[i]];
-            volume->wheel_at = ENF_NONE;
-            if (volume->expiry_tick > tick) {
-                enf_dbv_wheel_add(index, chunk.items[i]);
-            } else {
-                ok = enf_dbv_list_add(index, &index->due, chunk.items[i]) && ok;
+            if (!enf_dbv_list_add(index, due, chunk.items[i])) {
+                index->volumes[chunk.items[i]].wheel_at = ENF_NONE;
+                ok = false;
             }
         }
         number = chunk.next;
     }
+    uint32_t kept = first;
+    for (uint32_t i = first; i < due->count; i++) {
+        uint32_t object = due->items[i];
+        index->volumes[object].wheel_at = ENF_NONE;
+        if (index->volumes[object].expiry_tick > tick) {
+            enf_dbv_wheel_add(index, object);
+        } else {
+            due->items[kept++] = object;
+        }
+    }
+    due->count = kept;
     return ok;
 }
 
@@ -174,11 +182,13 @@ bool enf_dbv_wheel_advance(EnfDbvIndex *index, int64_t tick) {
     bool ok = true;
     if (tick - wheel->now >= ENF_DBV_SLOTS) {
         ok = take_all(index, tick);
+        enf_dbv_sort(index, &index->due, earlier);
     }
     while (wheel->now < tick) {
         wheel->now = next_occupied(wheel, tick);
+        uint32_t first = index->due.count; /* what is due in one tick is in order by number */
         ok = take_slot(index, (uint32_t)(uint64_t)wheel->now & MASK, wheel->now) && ok;
+        enf_dbv_sort_numbers(index, &index->due, first);
     }
-    enf_dbv_sort(index, &index->due, earlier);
     return ok;
 }

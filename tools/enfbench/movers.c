@@ -285,59 +285,72 @@ static void make_mover(MoversScene *scene, Mover *mover, uint32_t cell, const bo
     mover->phase = (uint32_t)(random_unit(seed) * 2.0 * (double)mover->period);
 }
 
-/* Which rooms does the eye see on its way? NULL without memory. */
-static bool *rooms_on_the_way(MoversScene *scene, uint32_t eye_cell) {
-    bool *seen = calloc(scene->rooms.map->cells_count + 1U, sizeof *seen);
-    for (uint32_t f = 0; f < scene->def.frames && seen != NULL; f++) {
+/* The rooms, those first that the eye sees on its way; how many these are. */
+typedef struct Sides {
+    bool *seen;      /* a cell */
+    uint32_t *rooms; /* in two rows, each ascending */
+    uint32_t seen_count, count;
+} Sides;
+
+/* False without memory. */
+static bool make_sides(MoversScene *scene, uint32_t eye_cell, Sides *sides) {
+    uint32_t cells = scene->rooms.map->cells_count;
+    sides->count = cells < scene->def.rooms ? cells : scene->def.rooms;
+    sides->seen_count = 0;
+    sides->seen = calloc(cells + 1U, sizeof *sides->seen);
+    sides->rooms = calloc(sides->count + 1U, sizeof *sides->rooms);
+    if (sides->seen == NULL || sides->rooms == NULL) {
+        return false;
+    }
+    sides->seen[eye_cell] = true;
+    for (uint32_t f = 0; f < scene->def.frames; f++) {
         const EnfVisSet *set = enf_vis_run(scene->vis, &scene->portals, &scene->views[f]);
         for (uint32_t i = 0; i < set->visit_count; i++) {
-            seen[set->visits[i].cell] = true;
+            sides->seen[set->visits[i].cell] = true;
         }
     }
-    if (seen != NULL) {
-        seen[eye_cell] = true;
-    }
-    return seen;
-}
-
-/* A room that is seen or not, as asked: one of the cells at random, or else the next that is. */
-static uint32_t room_that(const bool *seen, bool shall_be, uint32_t cell, uint32_t cells, uint32_t fallback) {
-    for (uint32_t i = 0; i < cells; i++) {
-        uint32_t at = (cell + i) % cells;
-        if (seen[at] == shall_be) {
-            return at;
+    uint32_t at = 0;
+    for (uint32_t pass = 0; pass < 2; pass++) {
+        for (uint32_t room = 0; room < sides->count; room++) {
+            if (sides->seen[room] == (pass == 0)) {
+                sides->rooms[at++] = room;
+            }
         }
+        sides->seen_count = pass == 0 ? at : sides->seen_count;
     }
-    return fallback;
+    return true;
 }
 
-/* Without a number of visible ones, everywhere alike. Else these stay in rooms that the eye sees on its way, spread evenly, and the
+/* A room that is not seen; any, where all are. */
+static uint32_t hidden_room(const Sides *sides, double random) {
+    uint32_t first = sides->seen_count < sides->count ? sides->seen_count : 0;
+    return sides->rooms[first + (uint32_t)(random * (double)(sides->count - first))];
+}
+
+/* Without a number of visible ones, everywhere alike. Else these stay in rooms that the eye sees on its way, as many in each, and the
  * others in rooms that it never sees: so the visible ones are the same however many are hidden. */
 static bool make_movers(MoversScene *scene, uint32_t eye_cell) {
     const MoversDef *def = &scene->def;
     uint64_t seed = (uint64_t)def->seed * 1000003U + 17U;
-    uint32_t cells = scene->rooms.map->cells_count;
-    cells = cells < def->rooms ? cells : def->rooms;
-    bool *seen = def->visible > 0 ? rooms_on_the_way(scene, eye_cell) : NULL;
+    Sides sides = {NULL, NULL, 0, 0};
     bool *all = calloc(scene->rooms.map->cells_count + 1U, sizeof *all);
-    bool ok = all != NULL && (def->visible == 0 || seen != NULL);
+    bool ok = make_sides(scene, eye_cell, &sides) && all != NULL;
     for (uint32_t c = 0; c < scene->rooms.map->cells_count && ok; c++) {
         all[c] = true;
     }
     for (uint32_t i = 0; i < def->movers && ok; i++) {
-        uint32_t cell = (uint32_t)(random_unit(&seed) * (double)cells);
-        bool shall_be_seen = i < def->visible;
-        const bool *avoid = NULL;
-        if (shall_be_seen) {
-            cell = def->eye == MOVERS_STILL ? eye_cell : room_that(seen, true, cell, cells, eye_cell);
-            avoid = all;
-        } else if (seen != NULL) {
-            cell = room_that(seen, false, cell, cells, cell == eye_cell ? (cell + 1) % cells : cell);
-            avoid = seen;
+        double random = random_unit(&seed);
+        if (def->visible == 0) {
+            make_mover(scene, &scene->movers[i], (uint32_t)(random * (double)sides.count), NULL, &seed);
+        } else if (i < def->visible) {
+            uint32_t cell = def->eye == MOVERS_STILL ? eye_cell : sides.rooms[i % sides.seen_count];
+            make_mover(scene, &scene->movers[i], cell, all, &seed);
+        } else {
+            make_mover(scene, &scene->movers[i], hidden_room(&sides, random), sides.seen, &seed);
         }
-        make_mover(scene, &scene->movers[i], cell, avoid, &seed);
     }
-    free(seen);
+    free(sides.seen);
+    free(sides.rooms);
     free(all);
     return ok;
 }
@@ -410,7 +423,7 @@ static void make_views(MoversScene *scene, uint32_t cell) {
 /* ---- scenes ----------------------------------------------------------------------------------------------------- */
 
 void bench_movers_close(MoversScene *scene) {
-    free(scene->movers);
+    enf_free(NULL, scene->movers, scene->def.movers, sizeof *scene->movers);
     free(scene->views);
     enf_vis_destroy(scene->vis);
     enf_portals_destroy(&scene->portals);
@@ -438,7 +451,7 @@ bool bench_movers_open(MoversScene *scene, const MoversDef *def) {
     bool ok = enf_rooms_create(&scene->rooms, &rooms, &error);
     ok = ok && enf_portals_create(&scene->portals, scene->rooms.map, NULL, &error) == ENF_OK;
     ok = ok && enf_vis_create(&scene->vis, scene->rooms.map, NULL, &error) == ENF_OK;
-    scene->movers = calloc(def->movers, sizeof *scene->movers);
+    scene->movers = enf_alloc(NULL, def->movers, sizeof *scene->movers);
     scene->views = calloc(def->frames, sizeof *scene->views);
     if (!ok || !scene->movers || !scene->views) {
         fprintf(stderr, "enfbench: %s\n", ok ? "out of memory" : error.message);
