@@ -2,6 +2,8 @@
  * the picture lose no pixel of it, none is lost and no volume is late; knobs that are wrong are refused. Times are not looked at. */
 #include "harness/harness.h"
 
+#include "enfbench/movers_lists.c" /* the benchmark is a program, no library */
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,6 +123,39 @@ static void test_hierarchical_z_loses_no_pixel(void **state) {
     }
 }
 
+/* Rounds of one technique must list the same, and so must all that go by walls: one list that differs in one frame is found, with its
+ * frame, and fails the run; a technique that went on for longer, or that has a list of its own, does not. */
+static void test_lists_that_differ_are_found(void **state) {
+    (void)state;
+    const uint64_t model[] = {11, 22, 33, 44}, other[] = {11, 22, 34, 45}, own[] = {1, 2, 3, 4};
+    const MoversLists whole = {"whole", model, 4, true}, part = {"part", model, 2, true};
+    const MoversLists bad = {"bad", other, 4, true}, early = {"early", other, 2, true}, apart = {"apart", own, 4, false};
+    assert_int_equal(bench_lists_part(&whole, &whole), ENF_NONE);
+    assert_int_equal(bench_lists_part(&whole, &part), ENF_NONE);
+    assert_int_equal(bench_lists_part(&whole, &bad), 2);
+    assert_int_equal(bench_lists_part(&bad, &early), ENF_NONE); /* both have but frames that agree */
+
+    const MoversLists agree[] = {part, apart, whole, early};
+    const MoversLists differ[] = {early, part, whole, apart, bad};
+    assert_true(bench_lists_agree("none", "all agree", agree, 4));
+    assert_false(bench_lists_agree("this is a test", "one differs", differ, 5));
+    assert_true(bench_lists_agree("none", "nobody", NULL, 0));
+
+    const MoversLists first[] = {whole, apart}, again[] = {part, apart}, wrong[] = {whole, bad};
+    assert_true(bench_lists_repeat("none", "the same", 2, first, again, 2));
+    assert_false(
+        bench_lists_repeat("this is a test", "one differs", 2, first, wrong, 2)); /* also of those with lists of their own */
+}
+
+/* Rounds are compared where there are several, and there are as many rows as without. */
+static void test_rounds_list_the_same(void **state) {
+    (void)state;
+    char *text = NULL;
+    assert_int_equal(run("movers --set rooms=16 --set movers=60 --set frames=40 --set rounds=3 --set " SAME, &text), 0);
+    assert_int_equal(check_rows(text), 8);
+    free(text);
+}
+
 static void test_updates_from_both_ends_are_measured(void **state) {
     (void)state;
     static const char *const runs[] = {"S1 --set rooms=16 --set frames=3000 --set seed=3",
@@ -196,6 +231,8 @@ static void test_wrong_knobs_are_refused(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_every_technique_lists_the_same),
     cmocka_unit_test(test_hierarchical_z_loses_no_pixel),
+    cmocka_unit_test(test_lists_that_differ_are_found),
+    cmocka_unit_test(test_rounds_list_the_same),
     cmocka_unit_test(test_updates_from_both_ends_are_measured),
     cmocka_unit_test(test_a_case_is_measured_once),
     cmocka_unit_test(test_scene_1_goes_on),

@@ -48,14 +48,17 @@ typedef struct Runner {
     double *look_times;                /* greene: visibility alone */
     double drawn, lost, listed, shown; /* listed, shown: objects of compared frames, where pixels are what is compared */
     uint32_t frames, timed;            /* timed: of the frames, those that count for time */
+    uint64_t *hashes;                  /* a frame each: of its list and of all before it */
     uint64_t hash, evaluations;        /* evaluations: when the first frame began */
 } Runner;
 
 /* A scene while it is measured. */
 typedef struct Case {
+    const char *experiment, *name;
     MoversScene scene;
     MoversWindows windows;
     Truth *truth;
+    bool same; /* no technique listed what it must not: else the run fails, but its rows are told */
 } Case;
 
 static void close_runner(Runner *runner) {
@@ -68,6 +71,7 @@ static void close_runner(Runner *runner) {
     bench_greene_destroy(runner->greene);
     free(runner->all);
     free(runner->times);
+    free(runner->hashes);
     free(runner->look_times);
 }
 
@@ -95,7 +99,8 @@ static bool open_runner(Runner *runner, uint32_t technique, const MoversScene *s
     runner->technique = technique;
     runner->hash = ENF_HASH_START;
     runner->times = calloc(scene->def.frames, sizeof *runner->times);
-    bool ok = runner->times != NULL;
+    runner->hashes = calloc(scene->def.frames, sizeof *runner->hashes);
+    bool ok = runner->times != NULL && runner->hashes != NULL;
     switch (techniques[technique].kind) {
     case KIND_INDEX:
     case KIND_FRUSTUM:
@@ -243,10 +248,10 @@ static bool turn(Case *current, Runner *runner, uint32_t frame) {
             bench_frame_counters(timed, runner->index);
         }
     }
-    runner->frames++;
     runner->spent_us += spent;
     runner->drawn += (double)count;
     runner->hash = enf_hash64(runner->hash, list, count * sizeof *list);
+    runner->hashes[runner->frames++] = runner->hash;
     bool compared = frame % scene->def.check == 0 && runner->plain == NULL; /* what `plain` lists is its own affair */
     return !compared || compare(current, runner, frame, list, count);
 }
@@ -304,9 +309,10 @@ static void write_params(const MoversDef *def, char params[BENCH_TEXT]) {
         def->polygons, def->period, def->seed, def->leaf, def->occluders ? "all" : "static");
 }
 
-static void add_row(BenchRun *run, const char *experiment, const char *name, const MoversScene *scene, Runner *runner) {
+static void add_row(BenchRun *run, const Case *current, Runner *runner) {
+    const MoversScene *scene = &current->scene;
     const MoversDef *def = &scene->def;
-    BenchRow row = bench_row(experiment, name, techniques[runner->technique].name);
+    BenchRow row = bench_row(current->experiment, current->name, techniques[runner->technique].name);
     write_params(def, row.params);
     row.frames = runner->frames;
     row.lost_objects = runner->plain == NULL ? runner->lost : -1.0;
@@ -403,9 +409,26 @@ static void close_runners(Runner *runners, uint32_t count) {
     }
 }
 
+/* What a runner listed. Index, flat and sweep go by portals and windows; those that go by the picture, and those that do without
+ * portals or care, have lists of their own. */
+static MoversLists lists_of(const Runner *runner) {
+    Kind kind = techniques[runner->technique].kind;
+    MoversLists lists = {techniques[runner->technique].name, runner->hashes, runner->frames,
+                         kind == KIND_INDEX || kind == KIND_FLAT || kind == KIND_SWEEP};
+    return lists;
+}
+
+static void all_lists(const Runner *runners, uint32_t count, MoversLists lists[TECHNIQUES]) {
+    for (uint32_t i = 0; i < count; i++) {
+        lists[i] = lists_of(&runners[i]);
+    }
+}
+
 /* The same frames once more, everything made anew: the work is the same, what the machine does besides is not. */
-static bool run_again(BenchRun *run, Case *current, Runner *runners, uint32_t count) {
+static bool run_again(BenchRun *run, Case *current, uint32_t round, Runner *runners, uint32_t count) {
     Runner others[TECHNIQUES];
+    MoversLists first[TECHNIQUES];
+    MoversLists again[TECHNIQUES];
     uint32_t other_count = 0;
     bool ok = open_runners(&current->scene, others, &other_count) && run_frames(run, current, others, other_count);
     for (uint32_t i = 0; i < count && ok; i++) {
@@ -413,22 +436,40 @@ static bool run_again(BenchRun *run, Case *current, Runner *runners, uint32_t co
         bench_frames_merge(runners[i].times, others[i].times, both);
         runners[i].lost += others[i].lost;
     }
+    if (ok) {
+        all_lists(runners, count, first);
+        all_lists(others, count, again);
+        current->same = bench_lists_repeat(current->experiment, current->name, round, first, again, count) && current->same;
+    }
     close_runners(others, other_count);
     return ok;
 }
 
-static void add_rows(BenchRun *run, const char *experiment, const char *name, const Case *current, Runner *runners,
-                     uint32_t count) {
+static void add_rows(BenchRun *run, const Case *current, Runner *runners, uint32_t count) {
     uint32_t first = run->rows.count;
     for (uint32_t i = 0; i < count; i++) {
-        add_row(run, experiment, name, &current->scene, &runners[i]);
+        add_row(run, current, &runners[i]);
         BenchRow *rows = run->rows.rows;
         rows[first + i].ratio_median = rows[first].median_us / rows[first + i].median_us;
     }
 }
 
+/* Everything but the rows. False without memory. */
+static bool measure(BenchRun *run, Case *current, Runner *runners, uint32_t *count) {
+    bool ok = open_runners(&current->scene, runners, count) && run_frames(run, current, runners, *count);
+    for (uint32_t round = 2; round <= current->scene.def.rounds && ok; round++) {
+        ok = run_again(run, current, round, runners, *count);
+    }
+    if (ok) {
+        MoversLists lists[TECHNIQUES];
+        all_lists(runners, *count, lists);
+        current->same = bench_lists_agree(current->experiment, current->name, lists, *count) && current->same;
+    }
+    return ok;
+}
+
 bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
-    Case current = {.windows = {NULL, 0, 0}, .truth = NULL};
+    Case current = {.experiment = experiment, .name = name, .windows = {NULL, 0, 0}, .truth = NULL, .same = true};
     Runner runners[TECHNIQUES];
     uint32_t count = 0;
     if (!bench_movers_open(&current.scene, def)) {
@@ -439,12 +480,9 @@ bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, 
         bench_movers_close(&current.scene);
         return true;
     }
-    bool ok = open_runners(&current.scene, runners, &count) && run_frames(run, &current, runners, count);
-    for (uint32_t round = 1; round < def->rounds && ok; round++) {
-        ok = run_again(run, &current, runners, count);
-    }
+    bool ok = measure(run, &current, runners, &count);
     if (ok) {
-        add_rows(run, experiment, name, &current, runners, count);
+        add_rows(run, &current, runners, count);
     } else {
         fprintf(stderr, "enfbench: no memory for %u objects\n", def->movers);
     }
@@ -452,5 +490,5 @@ bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, 
     free(current.windows.items);
     bench_truth_destroy(current.truth);
     bench_movers_close(&current.scene);
-    return ok;
+    return ok && current.same;
 }

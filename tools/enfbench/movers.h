@@ -144,6 +144,21 @@ void bench_frames_merge(MoversFrame *frames, const MoversFrame *others, uint32_t
 /** Fills in the columns on time; sorts `frames`. `volumes`: those on what the slowest frame did, too. */
 void bench_frames_row(MoversFrame *frames, uint32_t count, bool volumes, BenchRow *row);
 
+/* ---- movers_lists.c: do the techniques list what they must? ---- */
+typedef struct MoversLists {
+    const char *technique;
+    const uint64_t *hashes; /**< one a frame: of what was listed in it and in all before it */
+    uint32_t frames;
+    bool by_walls; /**< portals and the picture's edges alone decide: all such techniques list the same objects */
+} MoversLists;
+/** The first of the frames that both have in which they listed different objects; ENF_NONE without one. */
+uint32_t bench_lists_part(const MoversLists *a, const MoversLists *b);
+/** Did each technique list the same in this round as in the first? Else false, after a message for each that did not. */
+bool bench_lists_repeat(const char *experiment, const char *scene, uint32_t round, const MoversLists *first,
+                        const MoversLists *again, uint32_t count);
+/** Did all that go by walls list the same? Else false, after a message for each that did not. */
+bool bench_lists_agree(const char *experiment, const char *scene, const MoversLists *lists, uint32_t count);
+
 /** Knobs that every experiment on movers has, over what `def` says. */
 void bench_movers_knobs(BenchRun *run, MoversDef *def);
 MoversDef bench_movers_default(void);
