@@ -204,14 +204,14 @@ static void sort_by_byte(const uint32_t *from, uint32_t *to, uint32_t count, uin
     }
 }
 
+/* Below it a pass over 256 counters costs more than compares. */
+enum { FEW = 48 };
+
 void enf_dbv_sort_numbers(EnfDbvIndex *index, EnfDbvList *list, uint32_t first) {
     void *items = index->scratch.items;
     uint32_t *numbers = list->items + first;
     uint32_t count = list->count - first;
-    if (count < 2) {
-        return;
-    }
-    if (!enf_dbv_enlarge(index, &items, 0, &index->scratch.capacity, count, sizeof *numbers)) {
+    if (count < FEW || !enf_dbv_enlarge(index, &items, 0, &index->scratch.capacity, count, sizeof *numbers)) {
         EnfDbvList part = {numbers, count, count};
         enf_dbv_sort(index, &part, ascending);
         return;
