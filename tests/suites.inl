@@ -5,7 +5,7 @@
  * links:  none, core, gl or compile: the library under test; several are joined by '+', e.g. gl+compile
  *
  * Write the file first, then its line: a line without a file stops CMake. */
-ENF_SUITE(harness, unit, none)
+ENF_SUITE(harness, unit, core)
 ENF_SUITE(draw, unit, core)
 ENF_SUITE(draw_movers, unit, core)
 ENF_SUITE(vis, property, core)

@@ -508,14 +508,15 @@ static void test_same_bits_and_no_heap(void **state) {
     EnfError error = {0};
     const EnfMap *map = enf_maker_finish(maker, &error);
     assert_non_null(map);
-    Purse purse = {0, 1000000};
-    EnfAllocator allocator = {purse_resize, &purse};
+    Purse purse = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&purse);
     EnfCollider *collider, *other;
     assert_int_equal(enf_collider_create(&collider, map, NULL, &allocator, &error), ENF_OK);
     assert_int_equal(enf_collider_create(&other, map, NULL, NULL, &error), ENF_OK);
     uint64_t hash = dice_walk(collider, map, rng, 36000);
     purse.budget = 0; /* a call to the heap would fail now, and the sweep be refused: other bits */
     assert_true(dice_walk(collider, map, rng, 36000) == hash);
+    assert_int_equal(purse.refused, 0);
     EnfCapsule capsule = {0.2, 1.0};
     EnfSweepHit hit;
     (void)enf_collide_sweep(other, &capsule, enf_v3(1, 1, 1), enf_v3(19, 6, 8), &hit);
@@ -523,7 +524,7 @@ static void test_same_bits_and_no_heap(void **state) {
     printf("hash of 36000 ticks: %016llx\n", (unsigned long long)hash);
     assert_true(hash == UINT64_C(0xe246389548ce4c9d)); /* of every compiler; new where walking is changed on purpose */
     enf_collider_destroy(collider);
-    assert_int_equal(purse.lent, 0);
+    purse_assert_whole(&purse);
     enf_collider_destroy(other);
     enf_maker_destroy(maker);
 }
@@ -543,23 +544,28 @@ static void test_without_memory(void **state) {
     EnfObjectDef def = enf_object_def_default();
     assert_int_equal(enf_world_create(&world, map, 1, NULL, &error), ENF_OK);
     enf_solid_box(def.local, corners);
+    uint32_t not_made = 0, not_added = 0;
     EnfSolidDef solid = {enf_world_add(world, &def, &error).index, corners, 12, {{-1, -1, -1}, {1, 1, 1}}};
-    for (int budget = 0; budget < 120; budget++) {
-        Purse purse = {0, budget};
-        EnfAllocator allocator = {purse_resize, &purse};
+    for (uint32_t budget = 0; budget < 120; budget++) {
+        Purse purse = purse_with(budget);
+        EnfAllocator allocator = purse_allocator(&purse);
         EnfCollider *collider;
         EnfResult result = enf_collider_create(&collider, map, world, &allocator, &error);
-        assert_true(result == ENF_OK || (result == ENF_ERROR_MEMORY && collider == NULL));
+        assert_int_equal(result, purse.refused ? ENF_ERROR_MEMORY : ENF_OK);
+        assert_int_equal(collider != NULL, result == ENF_OK);
+        not_made += result != ENF_OK;
         for (int i = 0; i < 20 && result == ENF_OK; i++) { /* as many as lists grow for */
             EnfResult added = enf_collider_add(collider, &solid, &number, &error);
             EnfSweepHit hit;
-            assert_true(added == ENF_OK || added == ENF_ERROR_MEMORY);
+            assert_true(added == ENF_OK || (added == ENF_ERROR_MEMORY && purse.refused > 0));
+            not_added += added != ENF_OK;
             (void)enf_collide_sweep(collider, &capsule, enf_v3(3.0, 3.0, 5.0), enf_v3(1.0, 0.0, 0.0), &hit);
             assert_true(hit.t >= 0.0 && hit.t <= 1.0);
         }
         enf_collider_destroy(collider);
-        assert_int_equal(purse.lent, 0);
+        purse_assert_whole(&purse);
     }
+    assert_true(not_made > 0 && not_made < 120 && not_added > 0);
     enf_world_destroy(world);
     enf_maker_destroy(maker);
 }

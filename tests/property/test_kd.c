@@ -1,5 +1,5 @@
 /* kd-trees against loops over all boxes: random, flat, equal, huge and tiny boxes, 0 to 10,000 items, every SIMD variant. */
-#include "harness/harness.h"
+#include "harness/purse.h"
 #include "simd/simd.h"
 #include <enfilade/kd.h>
 
@@ -334,26 +334,6 @@ static void test_build_refuses(void **state) {
 }
 
 /* Memory that ends after a number of blocks, and is all given back. */
-typedef struct Scarce {
-    uint32_t left, held;
-} Scarce;
-
-static void *scarce_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Scarce *scarce = user;
-    (void)old_size;
-    if (new_size == 0) {
-        scarce->held -= block != NULL;
-        free(block);
-        return NULL;
-    }
-    if (scarce->left == 0) {
-        return NULL;
-    }
-    scarce->left--;
-    scarce->held += block == NULL;
-    return realloc(block, new_size);
-}
-
 static void test_build_without_memory(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(8);
@@ -363,16 +343,16 @@ static void test_build_without_memory(void **state) {
     }
     EnfResult result = ENF_ERROR_MEMORY;
     for (uint32_t blocks = 0; result != ENF_OK; blocks++) {
-        Scarce scarce = {blocks, 0};
-        EnfAllocator allocator = {scarce_resize, &scarce};
+        Purse purse = purse_with(blocks);
+        EnfAllocator allocator = purse_allocator(&purse);
         EnfKdBuilt built;
         EnfError error = {0};
         result = enf_kd_build(&built, boxes, NULL, 50, &allocator, &error);
-        assert_true(result == ENF_OK || result == ENF_ERROR_MEMORY);
+        assert_int_equal(result, purse.refused ? ENF_ERROR_MEMORY : ENF_OK);
         assert_int_equal(built.nodes != NULL, result == ENF_OK);
         enf_kd_built_free(&built);
-        assert_int_equal(scarce.held, 0);
-        assert_in_range(blocks, 0, 16);
+        purse_assert_whole(&purse);
+        assert_in_range(blocks, result == ENF_OK, 16);
     }
 }
 

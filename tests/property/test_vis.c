@@ -1,10 +1,11 @@
 /* Nothing visible is lost: every traversal, window and grain against rays through the picture that know no cell, portal, tree or
  * window (scenes/oracle.h). Eyes stand anywhere in a grid of rooms, in doorways, on thresholds' planes and a hair beside them. */
-#include "harness/harness.h"
+#include "harness/purse.h"
 #include "scenes/oracle.h"
 #include "scenes/rooms.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The traversals under test. */
@@ -212,21 +213,11 @@ static void test_cost_follows_what_is_seen(void **state) {
     assert_memory_equal(&seen[0], &seen[1], sizeof seen[0]);
 }
 
-typedef struct Heap {
-    uint32_t calls;
-} Heap;
-
-static void *counted_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    ((Heap *)user)->calls++;
-    const EnfAllocator *plain = enf_default_allocator();
-    return plain->resize(plain->user, block, old_size, new_size);
-}
-
 /* The second walk over the same views makes no heap call. */
 static void test_no_heap_in_a_warm_frame(void **state) {
     (void)state;
-    Heap heap = {0};
-    EnfAllocator allocator = {counted_resize, &heap};
+    Purse heap = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&heap);
     EnfRoomsDef def = enf_rooms_def_default();
     Stage stage;
     open_stage(&stage, &def);
@@ -249,28 +240,14 @@ static void test_no_heap_in_a_warm_frame(void **state) {
             }
         }
     }
+    assert_true(cold > 0);
     assert_int_equal(heap.calls, cold);
     enf_vis_destroy(vis);
+    purse_assert_whole(&heap);
     close_stage(&stage);
 }
 
 /* Memory that runs out at any allocation of any frame shows more, and hides nothing. */
-typedef struct Miser {
-    uint32_t left;
-} Miser;
-
-static void *miserly_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Miser *miser = user;
-    if (new_size > old_size) {
-        if (miser->left == 0) {
-            return NULL;
-        }
-        miser->left--;
-    }
-    const EnfAllocator *plain = enf_default_allocator();
-    return plain->resize(plain->user, block, old_size, new_size);
-}
-
 static void test_memory_failure_draws_more(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(4);
@@ -278,22 +255,27 @@ static void test_memory_failure_draws_more(void **state) {
     Stage stage;
     open_stage(&stage, &def);
     EnfVis *plenty = stage.vis;
-    uint32_t ran = 0;
+    uint32_t ran = 0, poor = 0;
     for (uint32_t left = 0; left < 40; left++) {
-        Miser miser = {left};
-        EnfAllocator allocator = {miserly_resize, &miser};
+        Purse miser = purse_with(left);
+        EnfAllocator allocator = purse_allocator(&miser);
         EnfError error = {ENF_OK, 0, "", ""};
         stage.vis = NULL;
         if (enf_vis_create(&stage.vis, stage.rooms.map, &allocator, &error) != ENF_OK) {
             assert_int_equal(error.code, ENF_ERROR_MEMORY);
             assert_null(stage.vis);
+            assert_true(miser.refused > 0);
+            purse_assert_whole(&miser);
             continue;
         }
         ran++;
         compare_views(&stage, 4, &rng);
         enf_vis_destroy(stage.vis);
+        purse_assert_whole(&miser);
+        poor += miser.refused > 0;
     }
-    assert_true(ran > 0);
+    printf("memory: %u of 40 could be made, %u of them ran out of it in a frame\n", ran, poor);
+    assert_true(ran > 0 && ran < 40 && poor > 0);
     stage.vis = plenty;
     close_stage(&stage);
 }

@@ -2,7 +2,7 @@
 #ifndef ENF_NIGHT_PLAY_H
 #define ENF_NIGHT_PLAY_H
 
-#include "harness/harness.h"
+#include "harness/purse.h"
 #include "scenes/night.h"
 
 #include "sim/bot.h"
@@ -11,22 +11,10 @@
 
 enum { MOST = 20000 }; /* ticks of a script */
 
-typedef struct Count {
-    uint64_t calls;
-    size_t bytes;
-} Count;
-
-static inline void *counting_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Count *count = user;
-    count->calls++;
-    count->bytes += new_size - old_size;
-    return enf_default_allocator()->resize(enf_default_allocator()->user, block, old_size, new_size);
-}
-
 typedef struct Play {
     EnfNight night;
     Game *game;
-    Count count;
+    Purse purse;
     uint32_t heard[GAME_SOUND_COUNT]; /* how often */
 } Play;
 
@@ -38,13 +26,14 @@ static inline void open_play(Play *play, EnfNightDef def, bool peaceful) {
     }
     GameDef game = game_def_default();
     game.peaceful = peaceful;
-    EnfAllocator allocator = {counting_resize, &play->count};
+    play->purse = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&play->purse);
     assert_int_equal(game_create(&play->game, play->night.map, &game, &allocator, &error), ENF_OK);
 }
 
 static inline void close_play(Play *play) {
     game_destroy(play->game);
-    assert_int_equal(play->count.bytes, 0);
+    purse_assert_whole(&play->purse);
     enf_night_destroy(&play->night);
 }
 

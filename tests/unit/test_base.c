@@ -92,8 +92,8 @@ static void log_goes_to_the_listener(void **state) {
 
 static void allocation_is_zeroed_and_checked(void **state) {
     (void)state;
-    Purse purse = {0, 100};
-    EnfAllocator own = {purse_resize, &purse};
+    Purse purse = purse_with(100);
+    EnfAllocator own = purse_allocator(&purse);
     const EnfAllocator *allocators[] = {NULL, enf_default_allocator(), &own};
     for (size_t i = 0; i < 3; i++) {
         uint8_t *block = enf_alloc(allocators[i], 10, 10), zeros[100] = {0};
@@ -111,7 +111,7 @@ static void allocation_is_zeroed_and_checked(void **state) {
         assert_null(enf_alloc(allocators[i], 3, 0));
         enf_free(allocators[i], NULL, 0, 0);
     }
-    assert_int_equal(purse.lent, 0);
+    purse_assert_whole(&purse);
     purse.budget = 0;
     assert_null(enf_alloc(&own, 1, 1));
     assert_null(enf_realloc(&own, NULL, 0, 1, 1));
@@ -135,8 +135,8 @@ static void sizes_are_checked(void **state) {
 
 static void arena_is_aligned_and_bounded(void **state) {
     (void)state;
-    Purse purse = {0, 1};
-    EnfAllocator own = {purse_resize, &purse};
+    Purse purse = purse_with(1);
+    EnfAllocator own = purse_allocator(&purse);
     EnfArena arena;
     EnfError error;
     assert_int_equal(enf_arena_create(&arena, 1000, &own, &error), ENF_OK);
@@ -152,7 +152,7 @@ static void arena_is_aligned_and_bounded(void **state) {
     arena.used = 0;
     assert_non_null(enf_arena_push(&arena, 1, 900));
     enf_arena_destroy(&arena);
-    assert_int_equal(purse.lent, 0);
+    purse_assert_whole(&purse);
     assert_null(arena.base);
     assert_null(enf_arena_push(&arena, 1, 1));
     assert_int_equal(enf_arena_create(&arena, 1000, &own, &error), ENF_ERROR_MEMORY);

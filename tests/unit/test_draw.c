@@ -1,5 +1,5 @@
 /* engine/draw: the canonical order, merged ranges, exact offsets, the projection, and no heap call in a warm frame. */
-#include "harness/harness.h"
+#include "harness/purse.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -282,56 +282,44 @@ static void the_projection_has_no_far_plane(void **state) {
 
 /* ---- heap ------------------------------------------------------------------------------------------------------- */
 
-typedef struct Count {
-    uint32_t calls, fail_at;
-    size_t bytes;
-} Count;
-
-static void *counting_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Count *count = user;
-    if (++count->calls == count->fail_at && new_size) {
-        return NULL;
-    }
-    count->bytes += new_size - old_size;
-    return enf_default_allocator()->resize(enf_default_allocator()->user, block, old_size, new_size);
-}
-
 static void a_frame_makes_no_heap_call(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(6);
     Fixture *fixture = make_fixture(&rng);
-    Count count = {0};
-    EnfAllocator allocator = {counting_resize, &count};
+    Purse purse = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&purse);
     EnfDraw *draw;
     assert_int_equal(enf_draw_create(&draw, &fixture->map, &allocator, NULL), ENF_OK);
-    uint32_t before = count.calls;
+    uint32_t before = purse.calls;
     for (uint32_t round = 0; round < 20; round++) {
         see(fixture, &rng, 1 + round);
         enf_draw_build(draw, &fixture->set, 0.02, NULL, 1.0);
     }
-    assert_int_equal(count.calls, before);
+    assert_int_equal(purse.calls, before);
     enf_draw_destroy(draw);
-    assert_int_equal(count.bytes, 0);
+    purse_assert_whole(&purse);
     free(fixture);
 }
 
+/* At each site in turn one call fails, and those after it are served. */
 static void every_failing_allocation_is_reported(void **state) {
     (void)state;
     EnfTestRng rng = enf_test_rng(7);
     Fixture *fixture = make_fixture(&rng);
     EnfResult result = ENF_ERROR_MEMORY;
-    uint32_t site = 1;
+    uint32_t site = 0;
     for (; result != ENF_OK; site++) {
-        Count count = {0, site, 0};
-        EnfAllocator allocator = {counting_resize, &count};
+        Purse purse = {.budget = site, .once = true};
+        EnfAllocator allocator = purse_allocator(&purse);
         EnfDraw *draw = NULL;
         EnfError error = {0};
         result = enf_draw_create(&draw, &fixture->map, &allocator, &error);
         assert_true(result == ENF_OK ? draw != NULL : draw == NULL && error.code == ENF_ERROR_MEMORY);
+        assert_int_equal(purse.refused, result != ENF_OK);
         enf_draw_destroy(draw);
-        assert_int_equal(count.bytes, 0);
+        purse_assert_whole(&purse);
     }
-    assert_true(site > 8);
+    assert_true(site > 7);
     free(fixture);
 }
 

@@ -1,6 +1,6 @@
 /* engine/draw, what moves: the canonical order with clusters, matrices between two ticks, cells touched, no heap call in a warm frame,
  * and lists that stay sound when memory runs out. */
-#include "harness/harness.h"
+#include "harness/purse.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -191,22 +191,6 @@ static void pictures_between_ticks_blend_matrices(void **state) {
 
 /* ---- heap ------------------------------------------------------------------------------------------------------- */
 
-typedef struct Count {
-    uint32_t calls;
-    bool fails;
-    size_t bytes;
-} Count;
-
-static void *counting_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Count *count = user;
-    count->calls++;
-    if (count->fails && new_size) {
-        return NULL;
-    }
-    count->bytes += new_size - old_size;
-    return enf_default_allocator()->resize(enf_default_allocator()->user, block, old_size, new_size);
-}
-
 static void add_many(EnfMovingRooms *moving, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         EnfObjectDef def = enf_object_def_default();
@@ -222,8 +206,8 @@ static void a_warm_frame_makes_no_heap_call(void **state) {
     Stage stage;
     open_stage(&stage, enf_test_u64(&rng), false);
     add_many(&stage.moving, 2000);
-    Count count = {0};
-    EnfAllocator allocator = {counting_resize, &count};
+    Purse purse = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&purse);
     EnfDraw *draw;
     assert_int_equal(enf_draw_create(&draw, stage.moving.rooms.map, &allocator, NULL), ENF_OK);
     uint32_t before = 0;
@@ -234,11 +218,11 @@ static void a_warm_frame_makes_no_heap_call(void **state) {
         const EnfDrawList *list = enf_draw_build(draw, enf_vis_run(stage.vis, &stage.moving.portals, &view), 0.02,
                                                  stage.moving.world, 1.0);
         assert_false(list->movers_failed);
-        before = round == 0 ? count.calls : before;
+        before = round == 0 ? purse.calls : before;
     }
-    assert_int_equal(count.calls, before);
+    assert_int_equal(purse.calls, before);
     enf_draw_destroy(draw);
-    assert_int_equal(count.bytes, 0);
+    purse_assert_whole(&purse);
     close_stage(&stage);
 }
 
@@ -250,25 +234,25 @@ static void lists_without_memory_are_sound(void **state) {
     Stage stage;
     open_stage(&stage, enf_test_u64(&rng), false);
     add_many(&stage.moving, 2000);
-    Count count = {0};
-    EnfAllocator allocator = {counting_resize, &count};
+    Purse purse = purse_with(PURSE_FULL);
+    EnfAllocator allocator = purse_allocator(&purse);
     EnfDraw *draw;
     assert_int_equal(enf_draw_create(&draw, stage.moving.rooms.map, &allocator, NULL), ENF_OK);
     EnfView view = random_view(&stage, &rng);
     view.dbv = NULL;
     const EnfVisSet *set = enf_vis_run(stage.vis, &stage.moving.portals, &view);
-    count.fails = true;
+    purse.budget = 0;
     const EnfDrawList *list = enf_draw_build(draw, set, 0.02, stage.moving.world, 1.0);
-    assert_true(list->movers_failed);
+    assert_true(list->movers_failed && purse.refused > 0);
     assert_true(list->mover_count > 100);
     expand(stage.moving.rooms.map, list, items);
     check_order(stage.moving.rooms.map, list);
-    count.fails = false;
+    purse.budget = PURSE_FULL;
     list = enf_draw_build(draw, set, 0.02, stage.moving.world, 1.0);
     assert_false(list->movers_failed);
     assert_true(list->mover_count >= 2000);
     enf_draw_destroy(draw);
-    assert_int_equal(count.bytes, 0);
+    purse_assert_whole(&purse);
     close_stage(&stage);
 }
 

@@ -163,8 +163,8 @@ static void read_survives_every_failing_malloc(void **state) {
     (void)state;
     const char *path = enf_test_temp_path("memory");
     enf_test_write_file(path, "12345678", 8);
-    Purse purse = {0, 0};
-    EnfAllocator own = {purse_resize, &purse};
+    Purse purse = purse_with(0);
+    EnfAllocator own = purse_allocator(&purse);
     EnfFile file;
     EnfError error;
     assert_int_equal(enf_file_read(&file, path, 100, &own, &error), ENF_ERROR_MEMORY);
@@ -172,8 +172,8 @@ static void read_survives_every_failing_malloc(void **state) {
     purse.budget = 1;
     assert_int_equal(enf_file_read(&file, path, 100, &own, &error), ENF_OK);
     enf_file_free(&file);
-    assert_int_equal(purse.lent, 0);
-    for (int budget = 0;; budget++) { /* a pipe grows its block, then trims it */
+    purse_assert_whole(&purse);
+    for (uint32_t budget = 0;; budget++) { /* a pipe grows its block, then trims it */
         int ends[2];
         char pipe_path[64];
         assert_int_equal(pipe(ends), 0);
@@ -188,10 +188,10 @@ static void read_survives_every_failing_malloc(void **state) {
             break;
         }
         assert_int_equal(result, ENF_ERROR_MEMORY);
-        assert_int_equal(purse.lent, 0);
+        purse_assert_whole(&purse);
     }
     enf_file_free(&file);
-    assert_int_equal(purse.lent, 0);
+    purse_assert_whole(&purse);
 }
 
 /* ---- writing files ---------------------------------------------------------------------------------------------- */

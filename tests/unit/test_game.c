@@ -257,26 +257,16 @@ static void test_no_heap_in_warm_ticks_and_restarts(void **state) {
         }
         done += ticks;
         if (round == 0) { /* warm */
-            calls = play.count.calls;
-            bytes = play.count.bytes;
+            calls = play.purse.calls;
+            bytes = play.purse.lent;
         }
     }
     for (int i = 0; i < 1000; i++) {
         game_restart(play.game);
     }
-    assert_int_equal(play.count.calls, calls);
-    assert_int_equal(play.count.bytes, bytes);
+    assert_int_equal(play.purse.calls, calls);
+    assert_int_equal(play.purse.lent, bytes);
     close_play(&play);
-}
-
-/* Lets so many calls pass, and no more. */
-static void *failing_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    uint32_t *left = user;
-    if (new_size > 0 && (*left)-- == 0) {
-        *left = 0;
-        return NULL;
-    }
-    return enf_default_allocator()->resize(enf_default_allocator()->user, block, old_size, new_size);
 }
 
 static void test_memory_that_runs_out_is_an_error(void **state) {
@@ -289,12 +279,14 @@ static void test_memory_that_runs_out_is_an_error(void **state) {
     EnfResult result = ENF_ERROR_MEMORY;
     uint32_t calls = 0;
     for (; result != ENF_OK && calls < 1000; calls++) {
-        uint32_t left = calls;
-        EnfAllocator allocator = {failing_resize, &left};
+        Purse purse = purse_with(calls);
+        EnfAllocator allocator = purse_allocator(&purse);
         Game *game;
         result = game_create(&game, night.map, &game_def, &allocator, &error);
-        assert_true(result == ENF_OK || (result == ENF_ERROR_MEMORY && game == NULL));
+        assert_int_equal(result, purse.refused ? ENF_ERROR_MEMORY : ENF_OK);
+        assert_int_equal(game != NULL, result == ENF_OK);
         game_destroy(game);
+        purse_assert_whole(&purse);
     }
     assert_true(calls > 20 && calls < 1000);
     enf_night_destroy(&night);

@@ -1,5 +1,5 @@
-/* The harness tests itself: its generator against published numbers, its folders, its files. */
-#include "harness/harness.h"
+/* The harness tests itself: its generator against published numbers, its folders, its files, its purse. */
+#include "harness/purse.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,6 +64,41 @@ static void shell_gives_the_exit_status(void **state) {
     assert_int_equal(enf_test_shell("kill -9 $$"), 128 + 9);
 }
 
+/* Asks a purse for ten blocks, bit i of the result: the i-th was given; grows each given one, and gives all back. */
+static uint32_t ask_ten_times(Purse *purse, uint32_t *most) {
+    uint8_t *blocks[10];
+    uint32_t given = 0;
+    for (uint32_t i = 0; i < 10; i++) {
+        blocks[i] = purse_resize(purse, NULL, 0, i + 1);
+        given |= (uint32_t)(blocks[i] != NULL) << i;
+    }
+    *most = purse->blocks;
+    for (uint32_t i = 0; i < 10; i++) {
+        if (blocks[i]) {
+            blocks[i][i] = 7;
+            uint8_t *grown = purse_resize(purse, blocks[i], i + 1, i + 9);
+            assert_true(!grown || (grown != blocks[i] && grown[i] == 7));
+            purse_resize(purse, grown ? grown : blocks[i], grown ? i + 9 : i + 1, 0);
+        }
+    }
+    return given;
+}
+
+static void a_purse_refuses_at_each_place(void **state) {
+    (void)state;
+    for (uint32_t n = 0; n < 10; n++) {
+        uint32_t most;
+        Purse purse = purse_with(n);
+        assert_int_equal(ask_ten_times(&purse, &most), (1u << n) - 1); /* n, and no more; nor does one of them grow */
+        assert_true(most == n && purse.calls == 10 + 2 * n && purse.refused == 10);
+        purse_assert_whole(&purse);
+        purse = (Purse){.budget = n, .once = true};
+        assert_int_equal(ask_ten_times(&purse, &most), 0x3ffu ^ 1u << n); /* all but one */
+        assert_true(most == 9 && purse.calls == 28 && purse.refused == 1);
+        purse_assert_whole(&purse);
+    }
+}
+
 /* The table of suites, as C reads it. */
 static const struct {
     const char *name, *folder, *links;
@@ -87,10 +122,10 @@ static void suites_are_listed_once(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rng_matches_reference),     cmocka_unit_test(rng_stays_in_range),
-    cmocka_unit_test(streams_differ_and_repeat), cmocka_unit_test(temporary_files_round_trip),
-    cmocka_unit_test(absent_data_is_null),       cmocka_unit_test(shell_gives_the_exit_status),
-    cmocka_unit_test(suites_are_listed_once),
+    cmocka_unit_test(rng_matches_reference),         cmocka_unit_test(rng_stays_in_range),
+    cmocka_unit_test(streams_differ_and_repeat),     cmocka_unit_test(temporary_files_round_trip),
+    cmocka_unit_test(absent_data_is_null),           cmocka_unit_test(shell_gives_the_exit_status),
+    cmocka_unit_test(a_purse_refuses_at_each_place), cmocka_unit_test(suites_are_listed_once),
 };
 
 ENF_TEST_MAIN(tests)

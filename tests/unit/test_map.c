@@ -1,5 +1,5 @@
 /* Map files: what is written is read, what is damaged is refused by name, and nothing that passes harms whoever uses it. */
-#include "harness/harness.h"
+#include "harness/purse.h"
 #include "map/map_internal.h"
 #include "scenes/everything.h"
 #include "scenes/rooms.h"
@@ -278,26 +278,6 @@ static void test_find_cell(void **state) {
 }
 
 /* Memory that ends after a number of blocks, and is all given back. */
-typedef struct Scarce {
-    uint32_t left, held;
-} Scarce;
-
-static void *scarce_resize(void *user, void *block, size_t old_size, size_t new_size) {
-    Scarce *scarce = user;
-    (void)old_size;
-    if (new_size == 0) {
-        scarce->held -= block != NULL;
-        free(block);
-        return NULL;
-    }
-    if (scarce->left == 0) {
-        return NULL;
-    }
-    scarce->left--;
-    scarce->held += block == NULL;
-    return realloc(block, new_size);
-}
-
 static void test_read_without_memory(void **state) {
     (void)state;
     size_t size;
@@ -305,16 +285,16 @@ static void test_read_without_memory(void **state) {
     const char *path = enf_test_temp_path("map.enfmap");
     EnfResult result = ENF_ERROR_MEMORY;
     for (uint32_t blocks = 0; result != ENF_OK; blocks++) {
-        Scarce scarce = {blocks, 0};
-        EnfAllocator allocator = {scarce_resize, &scarce};
+        Purse purse = purse_with(blocks);
+        EnfAllocator allocator = purse_allocator(&purse);
         EnfMap map;
         EnfError error = {0};
         result = enf_map_read(&map, path, &allocator, &error);
-        assert_true(result == ENF_OK || result == ENF_ERROR_MEMORY);
+        assert_int_equal(result, purse.refused ? ENF_ERROR_MEMORY : ENF_OK);
         assert_int_equal(map.cells != NULL, result == ENF_OK);
         enf_map_free(&map);
-        assert_int_equal(scarce.held, 0);
-        assert_in_range(blocks, 0, 16);
+        purse_assert_whole(&purse);
+        assert_in_range(blocks, result == ENF_OK, 16);
     }
 }
 

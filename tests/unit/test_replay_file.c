@@ -444,16 +444,17 @@ static void every_failing_malloc_is_survived(void **state) {
     (void)state;
     const char *path = enf_test_temp_path("poor.enfreplay");
     EnfReplayHeader header = header_of_seed(2, 1);
-    for (int budget = 0;; budget++) {
-        Purse purse = {0, budget};
-        const EnfAllocator allocator = {purse_resize, &purse};
+    for (uint32_t budget = 0;; budget++) {
+        Purse purse = purse_with(budget);
+        const EnfAllocator allocator = purse_allocator(&purse);
         EnfError error = {0};
         EnfReplay replay;
         EnfResult result = record(path, &header, 1, 300, &allocator, &error);
         if (result == ENF_OK && (result = enf_replay_read(&replay, path, ENF_REPLAY_WHOLE, &allocator, &error)) == ENF_OK) {
             enf_replay_free(&replay);
         }
-        assert_int_equal(purse.lent, 0);
+        purse_assert_whole(&purse);
+        assert_int_equal(purse.refused > 0, result != ENF_OK);
         if (result == ENF_OK) {
             assert_true(budget >= 3);
             return;
