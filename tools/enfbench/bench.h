@@ -52,6 +52,8 @@ typedef struct BenchKnobs {
 
 /** A value that is none of a knob's ends the program with the status of a wrong command line. */
 double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double min, double max);
+/** The same of a knob that counts something: a fraction is refused, not cut off. */
+uint32_t bench_knob_whole(BenchKnobs *knobs, const char *key, uint32_t fallback, uint32_t min, uint32_t max);
 /** One of `count` words: its number. */
 int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback);
 /** `fallback`, which may be NULL, where it is not given. */
@@ -60,7 +62,8 @@ const char *bench_knob_text(BenchKnobs *knobs, const char *key, const char *fall
 typedef struct BenchRun {
     BenchRows rows;
     BenchKnobs knobs;
-    bool progress; /**< stderr is a terminal */
+    uint32_t skipped; /**< cases that the knobs leave no room for, each told on stderr */
+    bool progress;    /**< stderr is a terminal */
 } BenchRun;
 
 /** Runs an experiment; false (after a message on stderr) if it could not. */

@@ -159,7 +159,7 @@ static bool measure(BenchRun *run, BenchScene *scene, const void *user) {
     memset(&course, 0, sizeof course);
     course.scene = scene;
     course.capsule = (EnfCapsule){0.3, 1.75};
-    course.moves = (uint32_t)bench_knob(&run->knobs, "moves", 100000.0, 1.0, 1e8);
+    course.moves = bench_knob_whole(&run->knobs, "moves", 100000, 1, 100000000);
     course.brute_every = bench_knob(&run->knobs, "brute", 1000.0, 1.0, 1e9);
     course.times = calloc(course.moves, sizeof *course.times);
     bool ok = course.times != NULL && enf_oracle_build(&course.oracle, &scene->map);
@@ -183,6 +183,6 @@ static bool measure(BenchRun *run, BenchScene *scene, const void *user) {
 }
 
 bool bench_collide(BenchRun *run) {
-    uint32_t frames = (uint32_t)bench_knob(&run->knobs, "frames", 500.0, 1.0, 1e6);
+    uint32_t frames = bench_knob_whole(&run->knobs, "frames", 500, 1, 1000000);
     return bench_each_scene(run, frames, measure, NULL);
 }

@@ -105,8 +105,8 @@ static bool make_files(Files *files) {
 
 bool bench_compile(BenchRun *run) {
     const char *sizes = bench_knob_text(&run->knobs, "rooms", "100,500,2000,7000");
-    uint32_t tables = (uint32_t)bench_knob(&run->knobs, "tables", 1.0, 0.0, 100.0);
-    uint32_t repeat = (uint32_t)bench_knob(&run->knobs, "repeat", 1.0, 1.0, 64.0);
+    uint32_t tables = bench_knob_whole(&run->knobs, "tables", 1, 0, 100);
+    uint32_t repeat = bench_knob_whole(&run->knobs, "repeat", 1, 1, 64);
     Files files;
     if (!make_files(&files)) {
         return false;

@@ -34,29 +34,39 @@ MoversDef bench_movers_default(void) {
     return def;
 }
 
+const char *const bench_movers_motions[4] = {"free", "linear", "spline", "character"};
+const char *const bench_movers_eyes[3] = {"still", "walk", "jump"};
+
+static bool is_set(BenchRun *run, const char *knob) {
+    return bench_knob_text(&run->knobs, knob, NULL) != NULL;
+}
+
 void bench_movers_knobs(BenchRun *run, MoversDef *def) {
-    static const char *const motions[] = {"free", "linear", "spline", "character"};
-    static const char *const eyes[] = {"still", "walk", "jump"};
     static const char *const occluders[] = {"static", "all"};
     BenchKnobs *knobs = &run->knobs;
-    def->rooms = (uint32_t)bench_knob(knobs, "rooms", def->rooms, 1.0, 1e6);
-    def->movers = (uint32_t)bench_knob(knobs, "movers", def->movers, 1.0, 1e7);
-    def->visible = (uint32_t)bench_knob(knobs, "visible", def->visible, 0.0, 1e6);
-    def->frames = (uint32_t)bench_knob(knobs, "frames", def->frames, 3.0, 1e7);
-    def->seed = (uint32_t)bench_knob(knobs, "seed", def->seed, 0.0, 4e9);
-    def->check = (uint32_t)bench_knob(knobs, "check", def->check, 1.0, 1e7);
-    def->period = (uint32_t)bench_knob(knobs, "period", def->period, 1.0, 1e9);
-    def->polygons = (uint32_t)bench_knob(knobs, "polygons", def->polygons, 0.0, 1e6);
+    def->rooms = bench_knob_whole(knobs, "rooms", def->rooms, 1, 1000000);
+    def->movers = bench_knob_whole(knobs, "movers", def->movers, 1, 10000000);
+    def->visible = bench_knob_whole(knobs, "visible", def->visible, 0, 1000000);
+    def->frames = bench_knob_whole(knobs, "frames", def->frames, 3, 10000000);
+    def->seed = bench_knob_whole(knobs, "seed", def->seed, 0, 4000000000U);
+    def->check = bench_knob_whole(knobs, "check", def->check, 1, 10000000);
+    def->period = bench_knob_whole(knobs, "period", def->period, 1, 1000000000);
+    def->polygons = bench_knob_whole(knobs, "polygons", def->polygons, 0, 1000000);
     def->speed = bench_knob(knobs, "speed", def->speed, 1e-6, 1e3);
-    def->doors = bench_knob(knobs, "doors", def->doors, 0.0, 100.0);
+    def->doors = (double)bench_knob_whole(knobs, "doors", (uint32_t)def->doors, 0, 100);
     def->door_width = bench_knob(knobs, "door_width", def->door_width, 0.25, 7.5);
     def->leaf = bench_knob(knobs, "leaf", def->leaf, 0.5, 64.0);
-    def->rounds = (uint32_t)bench_knob(knobs, "rounds", def->rounds, 1.0, 100.0);
+    def->rounds = bench_knob_whole(knobs, "rounds", def->rounds, 1, 100);
     def->budget = bench_knob(knobs, "budget", def->budget, 0.001, 1e6);
-    def->motion = (MoversMotion)bench_knob_word(knobs, "motion", motions, 4, (int)def->motion);
-    def->eye = (MoversEye)bench_knob_word(knobs, "eye", eyes, 3, (int)def->eye);
+    def->motion = (MoversMotion)bench_knob_word(knobs, "motion", bench_movers_motions, 4, (int)def->motion);
+    def->eye = (MoversEye)bench_knob_word(knobs, "eye", bench_movers_eyes, 3, (int)def->eye);
     def->occluders = bench_knob_word(knobs, "occluders", occluders, 2, def->occluders) == 1;
-    def->visible = def->visible > def->movers ? def->movers : def->visible;
+    if (def->visible > def->movers && is_set(run, "visible") && is_set(run, "movers")) {
+        fprintf(stderr,
+                "enfbench: visible=%u movers=%u: visible are some of the movers, so that there cannot be more of them\n",
+                def->visible, def->movers);
+        exit(2);
+    }
     const char *policy = bench_knob_text(knobs, "policy", "all");
     if (strcmp(policy, "all") != 0) {
         if (!bench_movers_known(policy)) {
@@ -70,10 +80,24 @@ void bench_movers_knobs(BenchRun *run, MoversDef *def) {
     }
 }
 
+/* Visible ones are some of the movers. What the user said of one of the two stands: a case with fewer movers than shall be visible is
+ * left out, one of whose few movers the experiment wants more to be visible shows them all; and either is told. */
+static bool fits(BenchRun *run, const char *experiment, const char *name, MoversDef *def) {
+    if (def->visible <= def->movers) {
+        return true;
+    }
+    bool skip = is_set(run, "visible");
+    run->skipped += skip ? 1U : 0U;
+    fprintf(stderr, "enfbench: %s, %s: movers=%u visible=%u: %s\n", experiment, name, def->movers, def->visible,
+            skip ? "skipped, as it has fewer movers than shall be visible" : "all movers are visible");
+    def->visible = def->movers;
+    return !skip;
+}
+
 /* One case: the defaults of an experiment, then what the user says. */
 static bool one(BenchRun *run, const char *experiment, const char *name, MoversDef def) {
     bench_movers_knobs(run, &def);
-    return bench_movers_case(run, experiment, name, &def);
+    return !fits(run, experiment, name, &def) || bench_movers_case(run, experiment, name, &def);
 }
 
 /* The same of a case that has very many movers, as its name says. */
@@ -81,12 +105,12 @@ static bool one_of_many(BenchRun *run, const char *experiment, const char *name,
     char text[64];
     bench_movers_knobs(run, &def);
     snprintf(text, sizeof text, "%s, %u movers", name, def.movers);
-    return bench_movers_case(run, experiment, text, &def);
+    return !fits(run, experiment, text, &def) || bench_movers_case(run, experiment, text, &def);
 }
 
 bool bench_movers(BenchRun *run) {
     static const uint32_t sizes[][2] = {{100, 1000}, {1024, 10000}, {10000, 10000}, {10000, 100000}};
-    bool sized = bench_knob_text(&run->knobs, "rooms", NULL) != NULL || bench_knob_text(&run->knobs, "movers", NULL) != NULL;
+    bool sized = is_set(run, "rooms") || is_set(run, "movers");
     bool ok = true;
     for (uint32_t i = 0; i < (sized ? 1U : 4U) && ok; i++) {
         MoversDef def = bench_movers_default();
@@ -100,7 +124,6 @@ bool bench_movers(BenchRun *run) {
 /* Every motion; and a few that are visible, with few and with very many hidden: there without those who move everything, as these
  * leave cold caches behind where they are many. */
 bool bench_million(BenchRun *run) {
-    static const char *const names[] = {"free", "linear", "spline", "character"};
     bool ok = true;
     for (int motion = MOVERS_FREE; motion <= MOVERS_CHARACTER && ok; motion++) {
         MoversDef def = bench_movers_default();
@@ -111,7 +134,7 @@ bool bench_million(BenchRun *run) {
         def.budget = 6.0;
         def.motion = (MoversMotion)motion;
         snprintf(def.techniques, sizeof def.techniques, "update-all,flat,sweep,plain,maximal,reach");
-        ok = one(run, "million", names[motion], def);
+        ok = one(run, "million", bench_movers_motions[motion], def);
     }
     for (uint32_t movers = 10000; movers <= 1000000 && ok; movers *= 100) {
         MoversDef def = bench_movers_default();
@@ -197,7 +220,7 @@ bool bench_s4(BenchRun *run) {
     bool ok = true;
     for (size_t i = 0; i < sizeof rooms / sizeof *rooms && ok; i++) {
         MoversDef def = chairs();
-        def.rooms = (uint32_t)bench_knob(&run->knobs, "rooms", rooms[i], 1.0, 1e6);
+        def.rooms = bench_knob_whole(&run->knobs, "rooms", rooms[i], 1, 1000000);
         def.movers = 4 * def.rooms;
         ok = one(run, "S4", "four a room", def);
     }
@@ -210,7 +233,7 @@ bool bench_s5(BenchRun *run) {
     for (size_t i = 0; i < sizeof movers / sizeof *movers && ok; i++) {
         MoversDef def = chairs();
         char name[64];
-        def.rooms = (uint32_t)bench_knob(&run->knobs, "rooms", 125.0, 1.0, 1e6);
+        def.rooms = bench_knob_whole(&run->knobs, "rooms", 125, 1, 1000000);
         def.movers = movers[i];
         snprintf(name, sizeof name, "%u rooms", def.rooms);
         ok = one(run, "S5", name, def);
@@ -218,10 +241,14 @@ bool bench_s5(BenchRun *run) {
     return ok;
 }
 
-/* Cost against looseness: overdraw is what was evaluated for each object drawn. */
-static bool policies(BenchRun *run, MoversDef def, const char *name) {
+/* Cost against looseness: overdraw is what was evaluated for each object drawn. The scene is called by what the eye does, whoever
+ * says so. */
+static bool policies(BenchRun *run, MoversDef def) {
     static const uint32_t periods[] = {1, 4, 16, 64, 256, 1024};
     bool (*measure)(BenchRun *, const char *, const char *, MoversDef) = def.movers == MANY ? one_of_many : one;
+    MoversDef told = def;
+    bench_movers_knobs(run, &told);
+    const char *name = bench_movers_eyes[told.eye];
     snprintf(def.techniques, sizeof def.techniques, "adaptive,maximal,optimal,reach");
     bool ok = measure(run, "S6", name, def);
     for (size_t i = 0; i < sizeof periods / sizeof *periods && ok; i++) {
@@ -238,12 +265,12 @@ bool bench_s6(BenchRun *run) {
     def.check = 600;
     def.budget = 1.5;
     def.eye = MOVERS_STILL;
-    bool ok = policies(run, def, "still");
+    bool ok = policies(run, def);
     def.eye = MOVERS_WALK;
-    ok = ok && policies(run, def, "walk");
+    ok = ok && policies(run, def);
     def.rooms = 10000;
     def.movers = MANY;
-    return ok && policies(run, def, "walk");
+    return ok && policies(run, def);
 }
 
 /* ---- Paunoo ----------------------------------------------------------------------------------------------------- */

@@ -157,7 +157,7 @@ static void measure(BenchRun *run, KdScene *scene, const char *technique, const 
 
 bool bench_kd(BenchRun *run) {
     const char *sizes = bench_knob_text(&run->knobs, "boxes", "1000,10000,100000");
-    uint32_t frames = (uint32_t)bench_knob(&run->knobs, "frames", 200.0, 1.0, 1e6);
+    uint32_t frames = bench_knob_whole(&run->knobs, "frames", 200, 1, 1000000);
     double seed = bench_knob(&run->knobs, "seed", 1.0, 0.0, 1e9);
     for (const char *at = sizes; *at != '\0';) {
         char *end = NULL;

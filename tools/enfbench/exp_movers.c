@@ -298,22 +298,33 @@ static void add_counters(const MoversScene *scene, const Runner *runner, BenchRo
     row->bytes_object = (double)enf_dbv_bytes(runner->index) / (double)scene->def.movers;
 }
 
-static void write_params(const MoversDef *def, char params[BENCH_TEXT]) {
-    static const char *const motions[] = {"free", "linear", "spline", "character"};
-    static const char *const eyes[] = {"still", "walk", "jump"};
-    snprintf(
-        params, BENCH_TEXT,
-        "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u period=%u seed=%u leaf=%g "
-        "occluders=%s",
-        def->rooms, def->movers, def->visible, def->speed, motions[def->motion], eyes[def->eye], def->doors, def->door_width,
-        def->polygons, def->period, def->seed, def->leaf, def->occluders ? "all" : "static");
+static bool has_period(uint32_t technique) {
+    EnfDbvPolicy policy = techniques[technique].policy;
+    return techniques[technique].period == 0 &&
+           (policy == ENF_DBV_CONSTANT || policy == ENF_DBV_ADAPTIVE || policy == ENF_DBV_OPTIMAL);
+}
+
+/* The knobs that a technique has: of others it says nothing. */
+static void write_params(const MoversDef *def, uint32_t technique, char params[BENCH_TEXT]) {
+    char period[32] = "";
+    char octree[64] = "";
+    if (has_period(technique)) {
+        snprintf(period, sizeof period, " period=%u", def->period);
+    }
+    if (techniques[technique].kind == KIND_GREENE) {
+        snprintf(octree, sizeof octree, " leaf=%g occluders=%s", def->leaf, def->occluders ? "all" : "static");
+    }
+    snprintf(params, BENCH_TEXT,
+             "rooms=%u movers=%u visible=%u speed=%g motion=%s eye=%s doors=%g door_width=%g polygons=%u%s seed=%u%s",
+             def->rooms, def->movers, def->visible, def->speed, bench_movers_motions[def->motion], bench_movers_eyes[def->eye],
+             def->doors, def->door_width, def->polygons, period, def->seed, octree);
 }
 
 static void add_row(BenchRun *run, const Case *current, Runner *runner) {
     const MoversScene *scene = &current->scene;
     const MoversDef *def = &scene->def;
     BenchRow row = bench_row(current->experiment, current->name, techniques[runner->technique].name);
-    write_params(def, row.params);
+    write_params(def, runner->technique, row.params);
     row.frames = runner->frames;
     row.lost_objects = runner->plain == NULL ? runner->lost : -1.0;
     row.objects = runner->drawn / (double)runner->frames;
@@ -351,18 +362,35 @@ bool bench_movers_known(const char *list) {
     return known == words;
 }
 
-/* Was this case measured before? So it is where knobs given with --set leave nothing of what an experiment varies. */
-static bool is_measured(const BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
+/* Of the same scene: what follows a comma says how many movers a variant has, and so do its parameters. */
+static bool is_row_of(const BenchRow *row, const char *experiment, const char *name) {
+    size_t length = strcspn(name, ",");
+    return strcmp(row->experiment, experiment) == 0 && strcspn(row->scene, ",") == length &&
+           strncmp(row->scene, name, length) == 0;
+}
+
+static bool is_technique_measured(const BenchRows *rows, const char *experiment, const char *name, const MoversDef *def,
+                                  uint32_t technique) {
     char params[BENCH_TEXT];
-    write_params(def, params);
-    for (uint32_t i = 0; i < run->rows.count; i++) {
-        const BenchRow *row = &run->rows.rows[i];
-        if (strcmp(row->experiment, experiment) == 0 && strcmp(row->scene, name) == 0 && strcmp(row->params, params) == 0 &&
-            is_chosen(def->techniques, row->technique)) {
+    write_params(def, technique, params);
+    for (uint32_t i = 0; i < rows->count; i++) {
+        const BenchRow *row = &rows->rows[i];
+        if (is_row_of(row, experiment, name) && strcmp(row->params, params) == 0 &&
+            strcmp(row->technique, techniques[technique].name) == 0) {
             return true;
         }
     }
     return false;
+}
+
+/* Was all of this case measured before? So it is where knobs given with --set leave nothing of what an experiment varies, or where
+ * that is nothing to the techniques that were chosen. If it is something to one of them, the others are measured beside it again. */
+static bool is_measured(const BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
+    bool all = true;
+    for (uint32_t t = 0; t < TECHNIQUES && all; t++) {
+        all = !is_chosen(def->techniques, techniques[t].name) || is_technique_measured(&run->rows, experiment, name, def, t);
+    }
+    return all;
 }
 
 /* A million volumes are made in the first second: that is not what shall use up the time. */
@@ -468,6 +496,22 @@ static bool measure(BenchRun *run, Case *current, Runner *runners, uint32_t *cou
     return ok;
 }
 
+/* A way takes a thousand million ticks at most: over the longest ones nobody is as slow as the least speeds that may be asked for. Rows
+ * carry the speed that there is. */
+static void tell_speed(Case *current) {
+    MoversDef *def = &current->scene.def;
+    double most = 0.0;
+    for (uint32_t i = 0; i < def->movers; i++) {
+        double speed = (double)current->scene.movers[i].speed * ENF_TICK_RATE;
+        most = speed > most ? speed : most;
+    }
+    if (most > 1.1 * def->speed) { /* a mover's own is rounded up a little */
+        fprintf(stderr, "enfbench: %s, %s: speed=%g: a way of 10^9 ticks needs up to %g\n", current->experiment, current->name,
+                def->speed, most);
+        def->speed = most;
+    }
+}
+
 bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, const MoversDef *def) {
     Case current = {.experiment = experiment, .name = name, .windows = {NULL, 0, 0}, .truth = NULL, .same = true};
     Runner runners[TECHNIQUES];
@@ -475,6 +519,7 @@ bool bench_movers_case(BenchRun *run, const char *experiment, const char *name, 
     if (!bench_movers_open(&current.scene, def)) {
         return false;
     }
+    tell_speed(&current);
     def = &current.scene.def; /* rooms are rounded up to a grid */
     if (is_measured(run, experiment, name, def)) {
         bench_movers_close(&current.scene);

@@ -75,7 +75,7 @@ static const char *const names[IDLE] = {"naive", "lca"};
 static void read_knobs(BenchRun *run, Knobs *knobs) {
     double frames = bench_knob(&run->knobs, "frames", FRAMES, BATCHES, 1e9);
     knobs->batch = (uint32_t)(frames / BATCHES);
-    knobs->seed = (uint32_t)bench_knob(&run->knobs, "seed", 1.0, 0.0, 4e9);
+    knobs->seed = bench_knob_whole(&run->knobs, "seed", 1, 0, 4000000000U);
     const char *policy = bench_knob_text(&run->knobs, "policy", "all");
     bool all = strcmp(policy, "all") == 0 || strcmp(policy, "naive,lca") == 0 || strcmp(policy, "lca,naive") == 0;
     knobs->rows[0] = all || strcmp(policy, names[0]) == 0;
@@ -189,7 +189,7 @@ static bool compare(BenchRun *run, const char *experiment, const EnfRoomsDef *de
  * seed chooses the row. */
 bool bench_s1(BenchRun *run) {
     Knobs knobs;
-    uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 4096.0, 1.0, 1e6);
+    uint32_t most = bench_knob_whole(&run->knobs, "rooms", 4096, 1, 1000000);
     bool ok = true;
     read_knobs(run, &knobs);
     for (uint32_t n = 1; n * n <= most && ok; n *= 2) {
@@ -212,8 +212,8 @@ bool bench_s2(BenchRun *run) {
     Knobs knobs;
     bool ok = true;
     read_knobs(run, &knobs);
-    uint32_t boxes = (uint32_t)bench_knob(&run->knobs, "boxes", 5745.0, 0.0, 1e5);
-    uint32_t most = (uint32_t)bench_knob(&run->knobs, "rooms", 64.0, 1.0, 1e4);
+    uint32_t boxes = bench_knob_whole(&run->knobs, "boxes", 5745, 0, 100000);
+    uint32_t most = bench_knob_whole(&run->knobs, "rooms", 64, 1, 10000);
     for (uint32_t n = 1; n * n <= most && ok; n *= 8) {
         EnfRoomsDef def = enf_rooms_def_default();
         def.nx = n;

@@ -255,16 +255,16 @@ bool bench_l1(BenchRun *run) {
     Plan plan;
     plan.experiment = "L1";
     plan.draw = true;
-    plan.repeat = (uint32_t)bench_knob(&run->knobs, "repeat", 3.0, 1.0, 1000.0);
-    plan.check = (uint32_t)bench_knob(&run->knobs, "check", 1.0, 1.0, 1e6);
-    return bench_each_scene(run, (uint32_t)bench_knob(&run->knobs, "frames", 500.0, 1.0, 1e6), run_scene, &plan);
+    plan.repeat = bench_knob_whole(&run->knobs, "repeat", 3, 1, 1000);
+    plan.check = bench_knob_whole(&run->knobs, "check", 1, 1, 1000000);
+    return bench_each_scene(run, bench_knob_whole(&run->knobs, "frames", 500, 1, 1000000), run_scene, &plan);
 }
 
 bool bench_vis(BenchRun *run) {
     Plan plan;
     plan.experiment = "vis";
     plan.draw = false;
-    plan.repeat = (uint32_t)bench_knob(&run->knobs, "repeat", 5.0, 1.0, 1000.0);
-    plan.check = (uint32_t)bench_knob(&run->knobs, "check", 20.0, 1.0, 1e6);
-    return bench_each_scene(run, (uint32_t)bench_knob(&run->knobs, "frames", 2000.0, 1.0, 1e6), run_scene, &plan);
+    plan.repeat = bench_knob_whole(&run->knobs, "repeat", 5, 1, 1000);
+    plan.check = bench_knob_whole(&run->knobs, "check", 20, 1, 1000000);
+    return bench_each_scene(run, bench_knob_whole(&run->knobs, "frames", 2000, 1, 1000000), run_scene, &plan);
 }

@@ -71,6 +71,20 @@ static bool knob_is_known(const char *key, const char *const *names, uint32_t co
     return false;
 }
 
+/* Runs one; where the knobs leave none of its cases, they are wrong. */
+static int run_one(BenchRun *run, const char *name) {
+    uint32_t rows = run->rows.count;
+    uint32_t skipped = run->skipped;
+    if (!find(name)->function(run)) {
+        return ENF_EXIT_FAILURE;
+    }
+    if (run->rows.count == rows && run->skipped > skipped) {
+        fprintf(stderr, "enfbench: %s: every case was skipped\n", name);
+        return ENF_EXIT_USAGE;
+    }
+    return ENF_EXIT_OK;
+}
+
 static int run_all(const EnfCli *cli, const Options *options, const char *const *names, uint32_t count) {
     BenchRun run;
     memset(&run, 0, sizeof run);
@@ -85,9 +99,10 @@ static int run_all(const EnfCli *cli, const Options *options, const char *const 
             return ENF_EXIT_USAGE;
         }
     }
-    bool ok = true;
+    int status = ENF_EXIT_OK;
     for (uint32_t i = 0; i < count; i++) {
-        ok = find(names[i])->function(&run) && ok;
+        int one = run_one(&run, names[i]);
+        status = status == ENF_EXIT_OK ? one : status;
     }
     bench_progress(&run, "%s", "");
     bench_print_table(&run.rows);
@@ -100,7 +115,7 @@ static int run_all(const EnfCli *cli, const Options *options, const char *const 
         fprintf(stderr, "enfbench: %s: %s\n", error.file, error.message);
     }
     free(run.rows.rows);
-    return ok && written == ENF_OK ? ENF_EXIT_OK : ENF_EXIT_FAILURE;
+    return written == ENF_OK ? status : ENF_EXIT_FAILURE;
 }
 
 int main(int argc, char **argv) {

@@ -159,6 +159,8 @@ bool bench_lists_repeat(const char *experiment, const char *scene, uint32_t roun
 /** Did all that go by walls list the same? Else false, after a message for each that did not. */
 bool bench_lists_agree(const char *experiment, const char *scene, const MoversLists *lists, uint32_t count);
 
+/** What --set motion= and --set eye= take, by MoversMotion and MoversEye. */
+extern const char *const bench_movers_motions[4], *const bench_movers_eyes[3];
 /** Knobs that every experiment on movers has, over what `def` says. */
 void bench_movers_knobs(BenchRun *run, MoversDef *def);
 MoversDef bench_movers_default(void);

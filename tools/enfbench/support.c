@@ -60,6 +60,15 @@ double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double mi
     return value;
 }
 
+uint32_t bench_knob_whole(BenchKnobs *knobs, const char *key, uint32_t fallback, uint32_t min, uint32_t max) {
+    double value = bench_knob(knobs, key, (double)fallback, (double)min, (double)max);
+    if ((double)(uint32_t)value != value) {
+        fprintf(stderr, "enfbench: %s=%s: a whole number is expected\n", key, bench_knob_text(knobs, key, ""));
+        exit(2);
+    }
+    return (uint32_t)value;
+}
+
 int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback) {
     const char *text = bench_knob_text(knobs, key, words[fallback]);
     for (int i = 0; i < count; i++) {

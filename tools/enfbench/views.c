@@ -96,8 +96,8 @@ static uint32_t follow(const EnfMap *map, uint32_t cell, EnfVec3 from, EnfVec3 t
 }
 
 static bool make_views(BenchRun *run, BenchScene *scene, const EnfPathCsv *path, uint32_t frames) {
-    uint32_t width = (uint32_t)bench_knob(&run->knobs, "width", 640.0, 1.0, 8192.0);
-    uint32_t height = (uint32_t)bench_knob(&run->knobs, "height", 480.0, 1.0, 8192.0);
+    uint32_t width = bench_knob_whole(&run->knobs, "width", 640, 1, 8192);
+    uint32_t height = bench_knob_whole(&run->knobs, "height", 480, 1, 8192);
     double fov = bench_knob(&run->knobs, "fov", 60.0, 1.0, 170.0);
     scene->view_count = path->count < frames ? path->count : frames;
     scene->views = calloc(scene->view_count, sizeof *scene->views);
