@@ -123,6 +123,30 @@ static void test_hierarchical_z_loses_no_pixel(void **state) {
     }
 }
 
+/* Any first period is a period of its own: longer than the ring of expiries has places, too, and for longer than one of its rounds. */
+static void test_volumes_of_the_octree_take_any_period(void **state) {
+    (void)state;
+    static const char *const periods[] = {"1100", "3000", "1000000000"};
+    char evaluated[3][32];
+    for (int i = 0; i < 3; i++) {
+        char arguments[256];
+        char *text = NULL;
+        char *rest = NULL;
+        char *columns[COLUMNS] = {NULL};
+        snprintf(arguments, sizeof arguments,
+                 "S4 --set rooms=25 --set movers=40 --set frames=4200 --set check=420 --set budget=1000 --set policy=tbv --set "
+                 "period=%s",
+                 periods[i]);
+        assert_int_equal(run(arguments, &text), 0);
+        (void)strtok_r(text, "\n", &rest);
+        assert_int_equal(split(strtok_r(NULL, "\n", &rest), columns), COLUMNS);
+        assert_string_equal(columns[LOST], "0");
+        snprintf(evaluated[i], sizeof evaluated[i], "%s", columns[EVALUATED]);
+        assert_true(i == 0 || strcmp(evaluated[i], evaluated[i - 1]) != 0);
+        free(text);
+    }
+}
+
 /* Rounds of one technique must list the same, and so must all that go by walls: one list that differs in one frame is found, with its
  * frame, and fails the run; a technique that went on for longer, or that has a list of its own, does not. */
 static void test_lists_that_differ_are_found(void **state) {
@@ -309,6 +333,7 @@ static void test_wrong_knobs_are_refused(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_every_technique_lists_the_same),
     cmocka_unit_test(test_hierarchical_z_loses_no_pixel),
+    cmocka_unit_test(test_volumes_of_the_octree_take_any_period),
     cmocka_unit_test(test_lists_that_differ_are_found),
     cmocka_unit_test(test_rounds_list_the_same),
     cmocka_unit_test(test_updates_from_both_ends_are_measured),

@@ -21,7 +21,7 @@ typedef struct MoversDef {
     uint32_t check; /**< every check-th frame is compared with brute force */
     uint32_t polygons;  /**< vertices of an object that are moved on the processor when it is evaluated */
     uint32_t furniture; /**< boxes a room */
-    uint32_t period;    /**< ticks, of `constant`; the first of `adaptive` and `optimal` */
+    uint32_t period;    /**< ticks, of `constant`; the first of `adaptive`, `optimal` and `tbv` */
     double speed;       /**< metres a second, at most */
     double doors;       /**< percent of the inner walls */
     double door_width;
@@ -116,7 +116,7 @@ void bench_greene_move(Greene *greene, int64_t tick);
 /** The objects that are not hidden there, ascending: all that show a pixel are among them. */
 const uint32_t *bench_greene_look(Greene *greene, const EnfView *view, uint32_t *count);
 GreeneCounters bench_greene_counters(const Greene *greene);
-/** Of what it keeps for objects. */
+/** Of what it keeps for objects, and of the octree's nodes, which hold the building too. */
 size_t bench_greene_bytes(const Greene *greene);
 
 /* ---- truth.c: the picture itself ---- */

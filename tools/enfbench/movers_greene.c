@@ -12,8 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The ring of expiries holds more ticks than the longest period. */
-enum { PERIOD_MAX = 1024, RING = 2048 };
+/* Expiries are hung on a ring by their tick; what is over in another of its rounds is passed by once a round. */
+enum { RING = 2048 };
+/* Beyond a thousand million ticks nothing is gained, and twice that is still a number. */
+#define PERIOD_MAX (UINT32_C(1) << 30)
 
 typedef struct Face {
     uint32_t first, count;
@@ -35,8 +37,8 @@ struct Greene {
     uint32_t found_count, touched_count;
     /* Of volumes: the tick at which one is over; the ring of these; when it was evaluated last, and seen last (plus one). */
     uint32_t *next, *before, *evaluated_at, *seen_at;
+    uint32_t *periods;
     int64_t *due;
-    uint16_t *periods;
     uint32_t ring[RING];
     int64_t tick;
     const EnfCamera *camera;
@@ -120,25 +122,26 @@ static bool load_building(Greene *greene) {
     return ok;
 }
 
+/* Arrays of numbers, one an object. */
+enum { NUMBERS = 8 };
+
 static bool allocate(Greene *greene) {
     const EnfMap *map = greene->scene->rooms.map;
     size_t objects = greene->scene->def.movers + 1U;
-    uint32_t **numbers[] = {&greene->asked,  &greene->found,        &greene->touched, &greene->next,
-                            &greene->before, &greene->evaluated_at, &greene->seen_at};
+    uint32_t **numbers[NUMBERS] = {&greene->asked,  &greene->found,        &greene->touched, &greene->next,
+                                   &greene->before, &greene->evaluated_at, &greene->seen_at, &greene->periods};
     bool ok = true;
-    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+    for (size_t i = 0; i < NUMBERS; i++) {
         *numbers[i] = calloc(objects, sizeof(uint32_t));
         ok = ok && *numbers[i] != NULL;
     }
     greene->boxes = calloc(objects, sizeof *greene->boxes);
     greene->poses = calloc(objects, sizeof *greene->poses);
     greene->due = calloc(objects, sizeof *greene->due);
-    greene->periods = calloc(objects, sizeof *greene->periods);
     greene->points = calloc(map->indices_count + 1U, sizeof *greene->points);
     greene->faces = calloc(map->indices_count / 3U + 1U, sizeof *greene->faces);
     greene->drawn = calloc(map->indices_count / 3U + 1U, sizeof *greene->drawn);
-    return ok && greene->boxes && greene->poses && greene->due && greene->periods && greene->points && greene->faces &&
-           greene->drawn;
+    return ok && greene->boxes && greene->poses && greene->due && greene->points && greene->faces && greene->drawn;
 }
 
 Greene *bench_greene_create(const MoversScene *scene, bool volumes) {
@@ -162,9 +165,9 @@ Greene *bench_greene_create(const MoversScene *scene, bool volumes) {
 }
 
 size_t bench_greene_bytes(const Greene *greene) {
-    size_t object = OCTREE_FANOUT * sizeof(OctreeLink) + sizeof *greene->boxes + sizeof *greene->poses + 7 * sizeof(uint32_t) +
-                    sizeof *greene->due + sizeof *greene->periods;
-    return object * greene->scene->def.movers;
+    size_t object = OCTREE_FANOUT * sizeof(OctreeLink) + sizeof *greene->boxes + sizeof *greene->poses +
+                    NUMBERS * sizeof(uint32_t) + sizeof *greene->due;
+    return object * greene->scene->def.movers + greene->tree.node_capacity * sizeof *greene->tree.nodes + sizeof greene->ring;
 }
 
 GreeneCounters bench_greene_counters(const Greene *greene) {
@@ -237,9 +240,9 @@ static void make_volume(Greene *greene, uint32_t object, int64_t tick, int64_t d
 }
 
 static void begin_volumes(Greene *greene, int64_t tick) {
-    uint32_t period = greene->scene->def.period > PERIOD_MAX ? PERIOD_MAX : greene->scene->def.period;
+    uint32_t period = greene->scene->def.period;
     for (uint32_t i = 0; i < greene->scene->def.movers; i++) {
-        greene->periods[i] = (uint16_t)period;
+        greene->periods[i] = period;
         int64_t due = tick + 1 + (int64_t)(i % period); /* so that they are not all over at once */
         make_volume(greene, i, tick, due);
         enter_ring(greene, i, due);
@@ -248,22 +251,24 @@ static void begin_volumes(Greene *greene, int64_t tick) {
 
 /* What is over: who was seen in the last frame is evaluated, who was not gets a volume for twice as long. */
 static void renew_volumes(Greene *greene, int64_t tick) {
-    uint32_t object = greene->ring[tick % RING];
-    greene->ring[tick % RING] = ENF_NONE;
-    while (object != ENF_NONE) {
-        uint32_t next = greene->next[object];
+    uint32_t next = ENF_NONE;
+    for (uint32_t object = greene->ring[tick % RING]; object != ENF_NONE; object = next) {
+        next = greene->next[object];
+        if (greene->due[object] != tick) {
+            continue;
+        }
+        leave_ring(greene, object);
         if (greene->seen_at[object] + 1U == greene->frame) {
             evaluate(greene, object, tick);
             hang(greene, object);
             greene->touched[greene->touched_count++] = object;
         } else {
             uint32_t period = 2U * greene->periods[object];
-            greene->periods[object] = (uint16_t)(period > PERIOD_MAX ? PERIOD_MAX : period);
+            greene->periods[object] = period > PERIOD_MAX ? PERIOD_MAX : period;
             make_volume(greene, object, tick, tick + greene->periods[object]);
             enter_ring(greene, object, tick + greene->periods[object]);
             greene->counters.expired++;
         }
-        object = next;
     }
 }
 
@@ -398,7 +403,7 @@ static void settle(Greene *greene) {
             continue;
         }
         uint32_t period = greene->periods[object] / 2U;
-        greene->periods[object] = (uint16_t)(period < 2U ? 2U : period);
+        greene->periods[object] = period < 2U ? 2U : period;
         int64_t due = greene->tick + greene->periods[object];
         make_volume(greene, object, greene->tick, due);
         enter_ring(greene, object, due);
