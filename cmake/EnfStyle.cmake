@@ -20,6 +20,7 @@ enf_lint(house fast)
 enf_lint(format fast)
 enf_lint(sounds fast)
 enf_lint(tidy long ${CMAKE_BINARY_DIR})
+set_tests_properties(style_tidy PROPERTIES TIMEOUT 3600) # every file, and most of the headers anew for each
 # Instrumented and link-time-optimised objects name helpers of their own, so only a plain build is looked at.
 if(TARGET enf_core AND NOT ENF_SANITIZE AND NOT ENF_COVERAGE AND NOT ENF_FUZZ AND NOT CMAKE_INTERPROCEDURAL_OPTIMIZATION)
   enf_lint(symbols fast ${CMAKE_NM} $<TARGET_FILE:enf_core>)

@@ -76,7 +76,8 @@ void *enf_alloc(const EnfAllocator *allocator, size_t count, size_t size) {
     }
     allocator = or_default(allocator);
     if (allocator->resize == resize_with_libc) {
-        return on_large_pages(calloc(1, bytes), bytes); /* fresh pages are zero already: a large block is not touched here */
+        /* Fresh pages are zero already: a large block is not touched here. */
+        return on_large_pages(calloc(1, bytes), bytes);
     }
     void *block = allocator->resize(allocator->user, NULL, 0, bytes);
     return block ? memset(block, 0, bytes) : NULL;

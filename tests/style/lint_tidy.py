@@ -54,7 +54,7 @@ def main():
         own_test(tool)
     build = sys.argv[1]
     paths = database_files(build, sources.ROOT)
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with concurrent.futures.ThreadPoolExecutor(max_workers=len(os.sched_getaffinity(0))) as pool:
         found = pool.map(lambda path: check(tool, build, path, sources.ROOT), paths)
     problems = sorted({line for lines in found for line in lines})
     sources.finish(problems, f"tidy, {len(paths)} files")
