@@ -1,5 +1,5 @@
 /* The program enfview as a user runs it: exit statuses, files, statistics, and that --verify finds what is lost. */
-#include "harness/harness.h"
+#include "harness/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +13,8 @@
 enum { COMMAND_SIZE = 2048 };
 
 enum { CRATES = 24 };
+
+#define EXPECT(arguments, status) ENF_TEST_EXPECT("enfview", arguments, status, "")
 
 /* Crates that go about the rooms, and two leaves that turn. */
 static void add_movers(EnfMaker *maker) {
@@ -78,19 +80,22 @@ static const char *open_map(void) {
     return write_map("rooms.enfmap", false, false, &count);
 }
 
-/* Runs enfview; `output` (NULL: thrown away) gets what it prints on stdout. */
-static int view(const char *arguments, const char *output) {
-    char command[3 * COMMAND_SIZE];
-    snprintf(command, sizeof command, "'%s/enfview' %s > '%s' 2> /dev/null", ENF_BIN_DIR, arguments,
-             output ? output : "/dev/null");
-    return enf_test_shell(command);
+/* Runs enfview; what it prints on stdout, to be freed, in *out. */
+static int view(const char *arguments, char **out) {
+    EnfTestSaid said;
+    int status = enf_test_program("enfview", arguments, &said);
+    *out = said.out;
+    free(said.err);
+    return status;
 }
 
 /* Skips where this machine draws nothing in that context. */
 static void need_context(const char *map, const char *context) {
-    char arguments[COMMAND_SIZE];
+    char arguments[COMMAND_SIZE], *out;
     snprintf(arguments, sizeof arguments, "'%s' --eye 1,1,1 --size 8x8 --context %s", map, context);
-    if (view(arguments, NULL) != 0) {
+    int status = view(arguments, &out);
+    free(out);
+    if (status != 0) {
         printf("no context: %s\n", context);
         skip();
     }
@@ -98,50 +103,40 @@ static void need_context(const char *map, const char *context) {
 
 static void bad_command_lines_are_refused(void **state) {
     (void)state;
-    const char *map = open_map();
+    open_map();
     static const char *const wrong[] = {"",
                                         "--eye 0,0,0",
-                                        "'%s'",
-                                        "'%s' --eye 0,0",
-                                        "'%s' --eye 0,0,0 --cull everything",
-                                        "'%s' --eye 0,0,0 --size 0x5",
-                                        "'%s' --eye 0,0,0 --fov-y 180",
-                                        "'%s' --eye 0,0,0 --debug doors",
-                                        "'%s' --eye 0,0,0 --debug dbv --dbv off",
-                                        "'%s' --eye 0,0,0 --tick -1",
-                                        "'%s' --eye 0,0,0 --tick 0.5",
-                                        "'%s' --eye 0,0,0 --dbv most",
-                                        "'%s' --eye 0,0,0 --doors open",
-                                        "'%s' --eye 0,0,0 --freeze 1,2,3",
-                                        "'%s' --eye 0,0,0 --verify",
-                                        "'%s' --eye 0,0,0 --path x.csv",
-                                        "'%s' --path x.csv --every 0",
-                                        "'%s' --path x.csv -o x.png",
-                                        "'%s' --no-such-option"};
+                                        "'@/rooms.enfmap'",
+                                        "'@/rooms.enfmap' --eye 0,0",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --cull everything",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --size 0x5",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --fov-y 180",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --debug doors",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --debug dbv --dbv off",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --tick -1",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --tick 0.5",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --dbv most",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --doors open",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --freeze 1,2,3",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --verify",
+                                        "'@/rooms.enfmap' --eye 0,0,0 --path x.csv",
+                                        "'@/rooms.enfmap' --path x.csv --every 0",
+                                        "'@/rooms.enfmap' --path x.csv -o x.png",
+                                        "'@/rooms.enfmap' --no-such-option"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char arguments[COMMAND_SIZE];
-        const char *hole = strstr(wrong[i], "%s");
-        int before = hole ? (int)(hole - wrong[i]) : (int)strlen(wrong[i]);
-        snprintf(arguments, sizeof arguments, "%.*s%s%s", before, wrong[i], hole ? map : "", hole ? hole + 2 : "");
-        if (view(arguments, NULL) != 2) {
-            fail_msg("not refused: enfview %s", arguments);
-        }
+        EXPECT(wrong[i], 2);
     }
-    assert_int_equal(view("--help", NULL), 0);
-    assert_int_equal(view("--version", NULL), 0);
+    EXPECT("--help", 0);
+    EXPECT("--version", 0);
 }
 
 static void failures_have_status_1(void **state) {
     (void)state;
-    char arguments[COMMAND_SIZE];
-    const char *map = open_map();
-    assert_int_equal(view("/nonexistent.enfmap --eye 0,0,0", NULL), 1);
-    snprintf(arguments, sizeof arguments, "'%s' --eye 1,1,1 --cell nowhere", map);
-    assert_int_equal(view(arguments, NULL), 1);
-    snprintf(arguments, sizeof arguments, "'%s' --path /nonexistent.csv --verify", map);
-    assert_int_equal(view(arguments, NULL), 1);
-    snprintf(arguments, sizeof arguments, "'%s' --eye 1,1,1 -o /nonexistent/x.png", map);
-    assert_int_equal(view(arguments, NULL), 1);
+    open_map();
+    EXPECT("/nonexistent.enfmap --eye 0,0,0", 1);
+    EXPECT("'@/rooms.enfmap' --eye 1,1,1 --cell nowhere", 1);
+    EXPECT("'@/rooms.enfmap' --path /nonexistent.csv --verify", 1);
+    EXPECT("'@/rooms.enfmap' --eye 1,1,1 -o /nonexistent/x.png", 1);
 }
 
 static uint8_t *read_picture(const char *path, uint32_t width, uint32_t height) {
@@ -156,21 +151,17 @@ static uint8_t *read_picture(const char *path, uint32_t width, uint32_t height) 
 static void ids_and_statistics_are_written(void **state) {
     (void)state;
     uint32_t clusters;
-    char arguments[COMMAND_SIZE];
     const char *map = write_map("rooms.enfmap", false, false, &clusters);
     need_context(map, "any");
-    const char *ids = enf_test_temp_path("ids.png"), *stats = enf_test_temp_path("stats.json");
-    snprintf(arguments, sizeof arguments, "'%s' --eye 2.5,1.5,4.9 --yaw 30 --size 64x48 --ids '%s' --raw-ids --stats '%s'", map,
-             ids, stats);
-    assert_int_equal(view(arguments, NULL), 0);
-    uint8_t *rgba = read_picture(ids, 64, 48);
+    EXPECT("'@/rooms.enfmap' --eye 2.5,1.5,4.9 --yaw 30 --size 64x48 --ids '@/ids.png' --raw-ids --stats '@/stats.json'", 0);
+    uint8_t *rgba = read_picture(enf_test_temp_path("ids.png"), 64, 48);
     for (uint32_t i = 0; i < 64 * 48; i++) {
         uint32_t id = (uint32_t)rgba[4 * i] | (uint32_t)rgba[4 * i + 1] << 8 | (uint32_t)rgba[4 * i + 2] << 16;
         assert_in_range(id, 0, clusters);
     }
     enf_free(NULL, rgba, (size_t)64 * 48, 4);
     size_t size;
-    char *text = (char *)enf_test_read_file(stats, &size);
+    char *text = (char *)enf_test_read_file(enf_test_temp_path("stats.json"), &size);
     static const char *const keys[] = {"portals_tested", "portals_passed", "requeued", "kd_nodes",     "boxes", "fell_back",
                                        "outside",        "vis_us",         "draw_ms",  "picture_hash", "cells"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
@@ -189,13 +180,12 @@ static void both_contexts_write_the_same_picture(void **state) {
     for (int i = 0; i < 2; i++) {
         char arguments[COMMAND_SIZE];
         need_context(map, contexts[i]);
-        const char *out = enf_test_temp_path("picture.png");
         snprintf(arguments, sizeof arguments,
-                 "'%s' --eye 2.5,1.5,4.9 --yaw 30 --size 160x120 --context %s --debug portals --debug windows --debug cells "
-                 "--debug kd -o '%s'",
-                 map, contexts[i], out);
-        assert_int_equal(view(arguments, NULL), 0);
-        pictures[i] = read_picture(out, 160, 120);
+                 "'@/rooms.enfmap' --eye 2.5,1.5,4.9 --yaw 30 --size 160x120 --context %s --debug portals --debug windows "
+                 "--debug cells --debug kd -o '@/picture.png'",
+                 contexts[i]);
+        EXPECT(arguments, 0);
+        pictures[i] = read_picture(enf_test_temp_path("picture.png"), 160, 120);
     }
     assert_memory_equal(pictures[0], pictures[1], (size_t)160 * 120 * 4);
     for (int i = 0; i < 2; i++) {
@@ -208,21 +198,21 @@ static void wide_vectors_are_lowered(void **state) {
     (void)state;
     const char *map = open_map();
     need_context(map, "any");
-    const char *out = enf_test_temp_path("vectors.png"), *said = enf_test_temp_path("said.txt");
+    const char *out = enf_test_temp_path("vectors.png");
     uint8_t *pictures[2];
+    char arguments[COMMAND_SIZE];
+    snprintf(arguments, sizeof arguments, "'%s' --eye 2.5,1.5,4.9 --size 64x48 -q -o '%s'", map, out);
     for (int i = 0; i < 2; i++) {
-        char command[3 * COMMAND_SIZE];
-        snprintf(command, sizeof command,
-                 "LP_NATIVE_VECTOR_WIDTH=%d '%s/enfview' '%s' --eye 2.5,1.5,4.9 --size 64x48 -q -o '%s' 2> '%s'", i ? 512 : 256,
-                 ENF_BIN_DIR, map, out, said);
-        assert_int_equal(enf_test_shell(command), 0);
+        EnfTestSaid said;
+        assert_int_equal(setenv("LP_NATIVE_VECTOR_WIDTH", i ? "512" : "256", 1), 0);
+        int status = enf_test_program("enfview", arguments, &said);
+        assert_int_equal(unsetenv("LP_NATIVE_VECTOR_WIDTH"), 0);
+        assert_int_equal(status, 0);
+        assert_int_equal(strstr(said.err, "LP_NATIVE_VECTOR_WIDTH=512") != NULL, i);
+        enf_test_said_free(&said);
         pictures[i] = read_picture(out, 64, 48);
     }
     assert_memory_equal(pictures[0], pictures[1], (size_t)64 * 48 * 4);
-    size_t size;
-    char *text = (char *)enf_test_read_file(said, &size);
-    assert_non_null(strstr(text, "LP_NATIVE_VECTOR_WIDTH=512"));
-    free(text);
     for (int i = 0; i < 2; i++) {
         enf_free(NULL, pictures[i], (size_t)64 * 48, 4);
     }
@@ -258,11 +248,11 @@ static void verification_ends_with_a_line_of_json(void **state) {
     char arguments[COMMAND_SIZE];
     const char *map = open_map(), *path = write_path(21);
     need_context(map, "any");
-    const char *out = enf_test_temp_path("out.txt"), *cells = enf_test_temp_path("cells.jsonl");
+    const char *cells = enf_test_temp_path("cells.jsonl");
     snprintf(arguments, sizeof arguments, "'%s' --path '%s' --every 4 --verify --size 160x120 --cells '%s'", map, path, cells);
-    view(arguments, out); /* T-junctions of this scene may cost a pixel: test_gl says when; here the report counts */
-    size_t size;
-    char *text = (char *)enf_test_read_file(out, &size), *line = last_line(text);
+    char *text;
+    view(arguments, &text); /* T-junctions of this scene may cost a pixel: test_gl says when; here the report counts */
+    char *line = last_line(text);
     assert_int_equal(line[0], '{');
     assert_non_null(strstr(line, "\"views\": 6"));
     static const char *const keys[] = {"lost_pixels",           "lost_views",     "cells_drawn_mean", "clusters_drawn_mean",
@@ -272,6 +262,7 @@ static void verification_ends_with_a_line_of_json(void **state) {
         assert_non_null(strstr(line, keys[i]));
     }
     free(text);
+    size_t size;
     text = (char *)enf_test_read_file(cells, &size);
     uint32_t lines = 0;
     for (size_t i = 0; i < size; i++) {
@@ -288,11 +279,10 @@ static void what_is_lost_is_found(void **state) {
     char arguments[COMMAND_SIZE];
     const char *map = write_map("closed.enfmap", true, false, &clusters), *path = write_path(21);
     need_context(map, "any");
-    const char *out = enf_test_temp_path("out.txt");
     snprintf(arguments, sizeof arguments, "'%s' --path '%s' --verify --size 160x120 --quiet", map, path);
-    assert_int_equal(view(arguments, out), 1);
-    size_t size;
-    char *text = (char *)enf_test_read_file(out, &size);
+    char *text;
+    assert_int_equal(view(arguments, &text), 1);
+    assert_non_null(strstr(text, "\"lost_pixels\": "));
     assert_null(strstr(text, "\"lost_pixels\": 0,"));
     free(text);
 }
@@ -313,16 +303,15 @@ static void what_moves_is_drawn_and_verified(void **state) {
     char arguments[COMMAND_SIZE];
     const char *map = write_map("moving.enfmap", false, true, &clusters), *path = write_path(41);
     need_context(map, "any");
-    const char *out = enf_test_temp_path("out.txt"), *movers = enf_test_temp_path("movers.csv");
+    const char *movers = enf_test_temp_path("movers.csv");
     static const char recorded[] = "object,time,x,y,z\n0,0,1,0,1\n1,0,2,0,2\n0,2,3,0,8\n0,5,8,0,8\n";
     enf_test_write_file(movers, recorded, strlen(recorded));
     for (size_t i = 0; i < sizeof policies / sizeof *policies; i++) {
         snprintf(arguments, sizeof arguments,
                  "'%s' --path '%s' --verify --size 160x120 --quiet --tick 60 --dbv %s --movers '%s'", map, path, policies[i],
                  movers);
-        view(arguments, out); /* a T-junction may cost a pixel: see above */
-        size_t size;
-        char *text = (char *)enf_test_read_file(out, &size);
+        char *text;
+        view(arguments, &text); /* a T-junction may cost a pixel: see above */
         assert_true(count_after(text, "\"lost_views\": ") <= 1);
         assert_int_equal(count_after(text, "\"objects\": "), CRATES + 2 + 2);
         assert_true(count_after(text, "\"objects_drawn_mean\": ") > 0);
@@ -343,12 +332,12 @@ static void ticks_and_volumes_are_seen(void **state) {
     need_context(map, "any");
     static const char *const options[] = {"--tick 0", "--tick 90", "--tick 90 --dbv off", "--tick 90 --debug dbv"};
     uint8_t *pictures[4];
-    const char *out = enf_test_temp_path("tick.png"), *stats = enf_test_temp_path("tick.json");
     for (int i = 0; i < 4; i++) {
-        snprintf(arguments, sizeof arguments, "'%s' --eye 2.5,1.5,4.5 --yaw 20 --size 160x120 %s -o '%s' --stats '%s'", map,
-                 options[i], out, stats);
-        assert_int_equal(view(arguments, NULL), 0);
-        pictures[i] = read_picture(out, 160, 120);
+        snprintf(arguments, sizeof arguments,
+                 "'@/moving.enfmap' --eye 2.5,1.5,4.5 --yaw 20 --size 160x120 %s -o '@/tick.png' --stats '@/tick.json'",
+                 options[i]);
+        EXPECT(arguments, 0);
+        pictures[i] = read_picture(enf_test_temp_path("tick.png"), 160, 120);
     }
     assert_memory_equal(pictures[1], pictures[2], (size_t)160 * 120 * 4);
     assert_true(memcmp(pictures[0], pictures[1], (size_t)160 * 120 * 4) != 0);
@@ -357,7 +346,7 @@ static void ticks_and_volumes_are_seen(void **state) {
         enf_free(NULL, pictures[i], (size_t)160 * 120, 4);
     }
     size_t size;
-    char *text = (char *)enf_test_read_file(stats, &size);
+    char *text = (char *)enf_test_read_file(enf_test_temp_path("tick.json"), &size);
     static const char *const keys[] = {"evaluated", "exposed", "expired", "reinserted", "avoided", "late", "\"tick\": 90"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         if (!strstr(text, keys[i])) {

@@ -42,9 +42,9 @@ static const char *map_of(const Level *level) {
 
 /* Skips where this machine draws nothing. */
 static void need_pictures(const char *map) {
-    char command[COMMAND_SIZE];
-    snprintf(command, sizeof command, "'%s/enfview' '%s' --eye 0,0,0 --size 16x16 --quiet", ENF_BIN_DIR, map);
-    if (enf_test_shell(command) != 0) {
+    char arguments[COMMAND_SIZE];
+    snprintf(arguments, sizeof arguments, "'%s' --eye 0,0,0 --size 16x16 --quiet", map);
+    if (enf_test_program("enfview", arguments, NULL) != 0) {
         printf("no picture can be drawn here\n");
         skip();
     }
@@ -52,10 +52,10 @@ static void need_pictures(const char *map) {
 
 /* Verifies each `every`th row of a path; the cells seen go to `cells` unless NULL. */
 static void verify(const char *map, const char *path, uint32_t every, const char *cells, const char *more) {
-    char command[COMMAND_SIZE];
-    snprintf(command, sizeof command, "'%s/enfview' '%s' --path '%s' --every %u --verify --quiet %s %s%s%s", ENF_BIN_DIR, map,
-             path, every, more, cells ? "--cells '" : "", cells ? cells : "", cells ? "'" : "");
-    assert_int_equal(enf_test_shell(command), 0);
+    char arguments[COMMAND_SIZE];
+    snprintf(arguments, sizeof arguments, "'%s' --path '%s' --every %u --verify --quiet %s %s%s%s", map, path, every, more,
+             cells ? "--cells '" : "", cells ? cells : "", cells ? "'" : "");
+    assert_int_equal(enf_test_program("enfview", arguments, NULL), 0);
 }
 
 /* ---- visible cells ---------------------------------------------------------------------------------------------- */

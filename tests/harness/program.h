@@ -10,39 +10,67 @@
 #include <stdlib.h>
 #include <string.h>
 
-/** Runs a program with `arguments`, '@' in them being the run's temporary folder. What it prints and what it complains of, to be
- *  freed, in *text. Returns its exit status. */
-static inline int enf_test_program(const char *program, const char *arguments, char **text) {
-    char command[6144], out[1024];
-    size_t at = (size_t)snprintf(command, sizeof command, "'%s/%s' ", ENF_BIN_DIR, program), size;
-    const char *folder = enf_test_temp_folder();
-    snprintf(out, sizeof out, "%s/said.txt", folder);
-    for (const char *c = arguments; *c; c++) {
-        size_t length = *c == '@' ? strlen(folder) : 1;
-        assert_true(at + length + strlen(out) + 40 < sizeof command);
-        memcpy(command + at, *c == '@' ? folder : c, length);
-        at += length;
+/** What a program said, on its two ways out. Free it with enf_test_said_free. */
+typedef struct EnfTestSaid {
+    char *out, *err;
+} EnfTestSaid;
+
+static inline void enf_test_said_free(EnfTestSaid *said) {
+    free(said->out);
+    free(said->err);
+    *said = (EnfTestSaid){NULL, NULL};
+}
+
+/** Runs a program in `folder`, with `arguments` as a shell takes them. What it says in *said, or passed on where that is NULL.
+ *  Returns its exit status. */
+static inline int enf_test_program_in(const char *folder, const char *program, const char *arguments, EnfTestSaid *said) {
+    char command[8192], out[1024], err[1024], to[2100] = "2>&1";
+    size_t size;
+    snprintf(out, sizeof out, "%s/said.out", enf_test_temp_folder()); /* the caller holds paths of the ring */
+    snprintf(err, sizeof err, "%s/said.err", enf_test_temp_folder());
+    if (said) {
+        snprintf(to, sizeof to, "> '%s' 2> '%s'", out, err);
     }
-    snprintf(command + at, sizeof command - at, " > '%s' 2>&1 < /dev/null", out);
+    int length = snprintf(command, sizeof command, "(cd '%s' && '%s/%s' %s) %s < /dev/null", folder, ENF_BIN_DIR, program,
+                          arguments, to);
+    assert_in_range(length, 1, sizeof command - 1);
     int status = enf_test_shell(command);
-    *text = (char *)enf_test_read_file(out, &size);
+    if (said) {
+        said->out = (char *)enf_test_read_file(out, &size);
+        said->err = (char *)enf_test_read_file(err, &size);
+    }
     return status;
 }
 
-/** Fails the case unless the program ends with `status` and says each of `parts` (to NULL). */
+/** As enf_test_program_in, where the suite itself runs. */
+static inline int enf_test_program(const char *program, const char *arguments, EnfTestSaid *said) {
+    return enf_test_program_in(".", program, arguments, said);
+}
+
+/** Fails the case unless the program ends with `status` and says each of `parts` (to NULL). '@' in `arguments` is the run's
+ *  temporary folder. */
 static inline void enf_test_expect(const char *program, const char *arguments, int status, const char *const *parts) {
-    char *text;
-    int got = enf_test_program(program, arguments, &text);
-    if (got != status) {
-        fail_msg("%s %s: status %d instead of %d:\n%s", program, arguments, got, status, text);
+    char all[6144];
+    size_t at = 0;
+    const char *folder = enf_test_temp_folder();
+    for (const char *c = arguments; *c; c++) {
+        size_t length = *c == '@' ? strlen(folder) : 1;
+        assert_true(at + length < sizeof all);
+        memcpy(all + at, *c == '@' ? folder : c, length);
+        at += length;
     }
-    const char *said = text ? text : ""; /* which it is: but gcc knows that nothing else is without "" */
+    all[at] = '\0';
+    EnfTestSaid said;
+    int got = enf_test_program(program, all, &said);
+    if (got != status) {
+        fail_msg("%s %s: status %d instead of %d:\n%s%s", program, all, got, status, said.out, said.err);
+    }
     for (; *parts; parts++) {
-        if (!strstr(said, *parts)) {
-            fail_msg("%s %s: no \"%s\" in:\n%s", program, arguments, *parts, said);
+        if (!strstr(said.out, *parts) && !strstr(said.err, *parts)) {
+            fail_msg("%s %s: no \"%s\" in:\n%s%s", program, all, *parts, said.out, said.err);
         }
     }
-    free(text);
+    enf_test_said_free(&said);
 }
 
 #define ENF_TEST_EXPECT(program, arguments, status, ...)                                                                       \
@@ -50,10 +78,9 @@ static inline void enf_test_expect(const char *program, const char *arguments, i
 
 /** Compiles a level into the file `output`; `options` as enfc's. Returns enfc's exit status, what it complains of is passed on. */
 static inline int enf_test_enfc(const char *level, const char *options, const char *output) {
-    char command[6144];
-    snprintf(command, sizeof command, "'%s/enfc' '%s' %s -o '%s' --quiet 2>&1 < /dev/null", ENF_BIN_DIR, level, options,
-             output);
-    return enf_test_shell(command);
+    char arguments[6144];
+    snprintf(arguments, sizeof arguments, "'%s' %s -o '%s' --quiet", level, options, output);
+    return enf_test_program("enfc", arguments, NULL);
 }
 
 /** The palace, as its project says. */

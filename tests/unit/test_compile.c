@@ -1,7 +1,7 @@
 /* The compiler from end to end: levels made here and real ones, the command line, its reports, determinism. */
 #include "compile/compile.h"
 #include "compile/project.h"
-#include "harness/harness.h"
+#include "harness/program.h"
 #include "scenes/grid_level.h"
 
 #include <stdio.h>
@@ -251,11 +251,16 @@ static void bad_projects_are_refused(void **state) {
 
 /* ---- the program ------------------------------------------------------------------------------------------------ */
 
-/* Runs enfc in the temporary folder; stdout and stderr go to the files `out` and `err` there. */
-static int enfc(const char *arguments) {
-    char command[2048];
-    snprintf(command, sizeof command, "cd '%s' && '%s/enfc' %s >out 2>err", enf_test_temp_folder(), ENF_BIN_DIR, arguments);
-    return enf_test_shell(command);
+/* Runs enfc in the temporary folder, so that names need no folder; fails the case unless it ends with `status`, and says `out` on
+ * stdout and `err` on stderr. */
+static void enfc(const char *arguments, int status, const char *out, const char *err) {
+    EnfTestSaid said;
+    int got = enf_test_program_in(enf_test_temp_folder(), "enfc", arguments, &said);
+    if (got != status || !strstr(said.out, out) || !strstr(said.err, err)) {
+        fail_msg("enfc %s: status %d, not %d with \"%s\" and \"%s\":\n%s%s", arguments, got, status, out, err, said.out,
+                 said.err);
+    }
+    enf_test_said_free(&said);
 }
 
 static bool file_has(const char *name, const char *text) {
@@ -269,9 +274,7 @@ static bool file_has(const char *name, const char *text) {
 static void the_program_compiles(void **state) {
     (void)state;
     write_level(&small_level, "level.glb", NULL);
-    assert_int_equal(enfc("level.glb --json report.json --plan plan.svg --overlay diag.glb"), 0);
-    assert_true(file_has("out", "cells"));
-    assert_true(file_has("err", ""));
+    enfc("level.glb --json report.json --plan plan.svg --overlay diag.glb", 0, "cells", "");
     static const char *const keys[] = {"\"cells\": 12", "\"portals\"",    "\"triangles\"", "\"clusters\"",
                                        "\"kd_nodes\"",  "\"lights\": 12", "\"bytes\"",     "\"seconds\"",
                                        "\"import\"",    "\"kd\"",         "\"write\"",     "\"warnings\": []"};
@@ -285,12 +288,11 @@ static void the_program_compiles(void **state) {
     EnfMap map;
     read_map(&map, enf_test_temp_path("level.enfmap"));
     enf_map_free(&map);
-    assert_int_equal(enfc("level.glb -o other.enfmap --quiet"), 0);
+    EnfTestSaid said;
+    assert_int_equal(enf_test_program_in(enf_test_temp_folder(), "enfc", "level.glb -o other.enfmap --quiet", &said), 0);
+    assert_string_equal(said.out, "");
+    enf_test_said_free(&said);
     assert_same_files(enf_test_temp_path("level.enfmap"), enf_test_temp_path("other.enfmap"));
-    size_t size;
-    uint8_t *out = enf_test_read_file(enf_test_temp_path("out"), &size);
-    assert_int_equal(size, 0);
-    free(out);
 }
 
 static void the_program_takes_projects(void **state) {
@@ -298,28 +300,25 @@ static void the_program_takes_projects(void **state) {
     static const char text[] = "{\"source\": \"level.glb\", \"output\": \"made.enfmap\", \"tint\": 1}";
     write_level(&small_level, "level.glb", NULL);
     enf_test_write_file(enf_test_temp_path("p.json"), text, sizeof text - 1);
-    assert_int_equal(enfc("p.json --quiet"), 0);
-    assert_true(file_has("err", "warning: project: p.json: unknown key \"tint\""));
+    enfc("p.json --quiet", 0, "", "warning: project: p.json: unknown key \"tint\"");
     EnfMap map;
     read_map(&map, enf_test_temp_path("made.enfmap"));
     enf_map_free(&map);
-    assert_int_equal(enfc("--project p.json -o again.enfmap"), 0);
+    enfc("--project p.json -o again.enfmap", 0, "", "");
     assert_same_files(enf_test_temp_path("made.enfmap"), enf_test_temp_path("again.enfmap"));
 }
 
 static void the_program_reports_failure(void **state) {
     (void)state;
     enf_test_write_file(enf_test_temp_path("bad.glb"), "glTF\2\0\0\0", 8);
-    assert_int_equal(enfc("bad.glb --json bad.json"), 1);
-    assert_true(file_has("err", "error: bad.glb: "));
+    enfc("bad.glb --json bad.json", 1, "", "error: bad.glb: ");
     assert_true(file_has("bad.json", "\"error\": {"));
     assert_true(file_has("bad.json", "\"ok\": false"));
-    assert_int_equal(enfc("bad.glb --nonsense"), 2);
-    assert_int_equal(enfc(""), 2);
-    assert_int_equal(enfc("a.glb b.glb"), 2);
-    assert_int_equal(enfc("--help"), 0);
-    assert_true(file_has("out", "--overlay"));
-    assert_int_equal(enfc("--version"), 0);
+    enfc("bad.glb --nonsense", 2, "", "--nonsense");
+    enfc("", 2, "", "");
+    enfc("a.glb b.glb", 2, "", "");
+    enfc("--help", 0, "--overlay", "");
+    enfc("--version", 0, "enfc", "");
 }
 
 /* ---- real levels ------------------------------------------------------------------------------------------------ */

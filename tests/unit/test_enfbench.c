@@ -1,6 +1,6 @@
 /* The experiments on moving objects as they are called: every technique that goes by walls lists the same objects, those that go by
  * the picture lose no pixel of it, none is lost and no volume is late; knobs that are wrong are refused. Times are not looked at. */
-#include "harness/harness.h"
+#include "harness/program.h"
 
 #include "enfbench/movers_lists.c" /* the benchmark is a program, no library */
 
@@ -8,17 +8,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Runs enfbench; its CSV, to be freed, in *text if it succeeded. */
-static int run(const char *arguments, char **text) {
-    char command[6144];
-    char csv[1024];
+/* Runs enfbench, which must succeed and tell `told`; its CSV, to be freed. */
+static char *run_telling(const char *arguments, const char *told) {
+    char all[2048];
     size_t size;
-    snprintf(csv, sizeof csv, "%s", enf_test_temp_path("rows.csv"));
-    snprintf(command, sizeof command, "%s/enfbench run %s --csv %s --json %s.json > %s.txt 2>&1", ENF_BIN_DIR, arguments, csv,
-             csv, csv);
-    int status = enf_test_shell(command);
-    *text = status == 0 ? (char *)enf_test_read_file(csv, &size) : NULL;
-    return status;
+    snprintf(all, sizeof all, "run %s --csv '@/rows.csv' --json '@/rows.json'", arguments);
+    ENF_TEST_EXPECT("enfbench", all, 0, told);
+    return (char *)enf_test_read_file(enf_test_temp_path("rows.csv"), &size);
+}
+
+static char *run(const char *arguments) {
+    return run_telling(arguments, "");
+}
+
+/* Runs enfbench, which must refuse and tell `told`. */
+static void refused(const char *arguments, const char *told) {
+    char all[2048];
+    snprintf(all, sizeof all, "run %s --csv '@/wrong.csv'", arguments);
+    ENF_TEST_EXPECT("enfbench", all, 2, told);
 }
 
 enum { LOST = 7, OVERDRAW = 9, OBJECTS = 14, HASH = 15, EVALUATED = 23, AVOIDED = 27, LATE = 28, COLUMNS = 36 };
@@ -68,13 +75,12 @@ static void test_every_technique_lists_the_same(void **state) {
     static const char *const eyes[] = {"still", "walk", "jump"};
     for (int i = 0; i < 12; i++) {
         char arguments[512];
-        char *text = NULL;
         snprintf(
             arguments, sizeof arguments,
             "movers --set rooms=36 --set movers=%d --set frames=150 --set check=7 --set motion=%s --set eye=%s --set seed=%d "
             "--set speed=%g --set visible=%d --set " SAME,
             97 + 10 * i, motions[i % 4], eyes[i / 4], i, i % 5 == 0 ? 20.0 : 1.4, i % 3 == 0 ? 10 : 0);
-        assert_int_equal(run(arguments, &text), 0);
+        char *text = run(arguments);
         assert_int_equal(check_rows(text), 8);
         free(text);
     }
@@ -109,7 +115,6 @@ static void test_hierarchical_z_loses_no_pixel(void **state) {
     static const double leaves[] = {4.0, 1.5, 30.0};
     for (int i = 0; i < 12; i++) {
         char arguments[512];
-        char *text = NULL;
         int movers = 60 + 20 * i;
         snprintf(arguments, sizeof arguments,
                  "S4 --set rooms=49 --set movers=%d --set frames=90 --set check=10 --set motion=%s --set eye=%s --set seed=%d "
@@ -117,7 +122,7 @@ static void test_hierarchical_z_loses_no_pixel(void **state) {
                  "--set policy=hierarchical-z,tbv",
                  movers, motions[i % 4], eyes[i / 4], i, leaves[i % 3], i % 2 == 0 ? "all" : "static", i % 5 == 4 ? 100 : 75,
                  i % 5 == 4 ? 5.0 : 1.25, i % 7 == 6 ? 1 : 64);
-        assert_int_equal(run(arguments, &text), 0);
+        char *text = run(arguments);
         check_greene(text, movers);
         free(text);
     }
@@ -130,14 +135,13 @@ static void test_volumes_of_the_octree_take_any_period(void **state) {
     char evaluated[3][32];
     for (int i = 0; i < 3; i++) {
         char arguments[256];
-        char *text = NULL;
         char *rest = NULL;
         char *columns[COLUMNS] = {NULL};
         snprintf(arguments, sizeof arguments,
                  "S4 --set rooms=25 --set movers=40 --set frames=4200 --set check=420 --set budget=1000 --set policy=tbv --set "
                  "period=%s",
                  periods[i]);
-        assert_int_equal(run(arguments, &text), 0);
+        char *text = run(arguments);
         (void)strtok_r(text, "\n", &rest);
         assert_int_equal(split(strtok_r(NULL, "\n", &rest), columns), COLUMNS);
         assert_string_equal(columns[LOST], "0");
@@ -174,8 +178,7 @@ static void test_lists_that_differ_are_found(void **state) {
 /* Rounds are compared where there are several, and there are as many rows as without. */
 static void test_rounds_list_the_same(void **state) {
     (void)state;
-    char *text = NULL;
-    assert_int_equal(run("movers --set rooms=16 --set movers=60 --set frames=40 --set rounds=3 --set " SAME, &text), 0);
+    char *text = run("movers --set rooms=16 --set movers=60 --set frames=40 --set rounds=3 --set " SAME);
     assert_int_equal(check_rows(text), 8);
     free(text);
 }
@@ -185,10 +188,9 @@ static void test_updates_from_both_ends_are_measured(void **state) {
     static const char *const runs[] = {"S1 --set rooms=16 --set frames=3000 --set seed=3",
                                        "S2 --set boxes=500 --set frames=3000"};
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
-        char *text = NULL;
         char *rest = NULL;
         char hash[32] = "";
-        assert_int_equal(run(runs[i], &text), 0);
+        char *text = run(runs[i]);
         (void)strtok_r(text, "\n", &rest);
         char *line = strtok_r(NULL, "\n", &rest);
         for (int row = 0; line != NULL; row++, line = strtok_r(NULL, "\n", &rest)) {
@@ -205,16 +207,15 @@ static void test_updates_from_both_ends_are_measured(void **state) {
 /* Knobs that leave nothing of what an experiment varies leave one case of it. What an experiment says of its cases still holds. */
 static void test_a_case_is_measured_once(void **state) {
     (void)state;
-    char *text = NULL;
-    assert_int_equal(run("S4 --set rooms=8 --set movers=30 --set frames=20 --set policy=flat,reach --set seed=5", &text), 0);
+    char *text = run("S4 --set rooms=8 --set movers=30 --set frames=20 --set policy=flat,reach --set seed=5");
     assert_non_null(strstr(text, "seed=5"));
     assert_int_equal(check_rows(text), 2);
     free(text);
-    assert_int_equal(run("S4 --set rooms=9 --set frames=20 --set policy=flat,reach", &text), 0);
+    text = run("S4 --set rooms=9 --set frames=20 --set policy=flat,reach");
     assert_non_null(strstr(text, "movers=36 ")); /* four a room */
     assert_int_equal(check_rows(text), 2);
     free(text);
-    assert_int_equal(run("S3 --set rooms=9 --set movers=30 --set frames=20 --set policy=flat,reach", &text), 0);
+    text = run("S3 --set rooms=9 --set movers=30 --set frames=20 --set policy=flat,reach");
     assert_int_equal(check_rows(text), 2); /* also where a variant is called by its movers */
     free(text);
 }
@@ -237,57 +238,40 @@ static uint32_t count_scene(const char *text, const char *name, uint32_t *all) {
  * knob that their technique has not. Its scenes are called by the eye that there is. */
 static void test_periods_vary_for_those_who_have_one(void **state) {
     (void)state;
-    char *text = NULL;
     uint32_t all = 0;
 #define FEW "S6 --set rooms=16 --set movers=40 --set frames=12 "
-    assert_int_equal(run(FEW "--set policy=maximal,reach", &text), 0);
+    char *text = run(FEW "--set policy=maximal,reach");
     assert_int_equal(count_scene(text, "still", &all), 2);
     assert_int_equal(count_scene(text, "walk", &all), 2);
     assert_int_equal(all, 4);
     assert_null(strstr(text, "period="));
     assert_null(strstr(text, "leaf="));
     free(text);
-    assert_int_equal(run(FEW "--set policy=constant,reach --set eye=jump", &text), 0);
+    text = run(FEW "--set policy=constant,reach --set eye=jump");
     assert_int_equal(count_scene(text, "jump", &all), 12);
     assert_int_equal(all, 12);
     assert_non_null(strstr(text, "period=256"));
     free(text);
-    assert_int_equal(run(FEW "--set period=9 --set policy=optimal --set eye=still", &text), 0);
+    text = run(FEW "--set period=9 --set policy=optimal --set eye=still");
     assert_int_equal(count_scene(text, "still", &all), 1);
     assert_int_equal(all, 1);
     free(text);
 }
 
-static bool says(const char *needle) {
-    char path[1024];
-    size_t size;
-    snprintf(path, sizeof path, "%s.txt", enf_test_temp_path("rows.csv"));
-    char *told = (char *)enf_test_read_file(path, &size);
-    bool found = strstr(told, needle) != NULL;
-    free(told);
-    return found;
-}
-
 /* Visible ones are some of the movers: more of them are refused, or cases that have fewer are left out, and it is told. */
 static void test_no_more_are_visible_than_there_are(void **state) {
     (void)state;
-    char *text = NULL;
     uint32_t all = 0;
-    assert_int_equal(run("movers --set movers=10 --set visible=11", &text), 2);
-    assert_true(says("visible=11 movers=10"));
-    assert_int_equal(run("losing --set rooms=9 --set visible=1000000 --set policy=reach", &text), 2);
-    assert_true(says("every case was skipped"));
-    assert_int_equal(
-        run("losing --set rooms=9 --set visible=100 --set frames=9 --set speed=1 --set door_width=1 --set doors=50 "
-            "--set policy=reach",
-            &text),
-        0);
-    assert_true(says("losing, all visible: movers=10 visible=100: skipped"));
+    refused("movers --set movers=10 --set visible=11", "visible=11 movers=10");
+    refused("losing --set rooms=9 --set visible=1000000 --set policy=reach", "every case was skipped");
+    char *text = run_telling(
+        "losing --set rooms=9 --set visible=100 --set frames=9 --set speed=1 --set door_width=1 --set doors=50 "
+        "--set policy=reach",
+        "losing, all visible: movers=10 visible=100: skipped");
     assert_int_equal(count_scene(text, "all visible", &all), 2); /* 100 and 1,000 */
     free(text);
-    assert_int_equal(run("million --set rooms=9 --set movers=30 --set frames=9 --set motion=linear --set policy=reach", &text),
-                     0);
-    assert_true(says("movers=30 visible=1000: all movers are visible"));
+    text = run_telling("million --set rooms=9 --set movers=30 --set frames=9 --set motion=linear --set policy=reach",
+                       "movers=30 visible=1000: all movers are visible");
     assert_non_null(strstr(text, "visible=30 "));
     free(text);
 }
@@ -295,13 +279,10 @@ static void test_no_more_are_visible_than_there_are(void **state) {
 /* Scene 1 of the thesis, which hides nothing, goes on to as many movers as the others in each of its tests. */
 static void test_scene_1_goes_on(void **state) {
     (void)state;
-    char *text = NULL;
     char *rest = NULL;
     uint32_t many = 0;
-    assert_int_equal(run("B1 --set rooms=9 --set movers=40 --set frames=12 --set check=5 --set polygons=12 --set speed=1 "
-                         "--set policy=flat,reach",
-                         &text),
-                     0);
+    char *text = run("B1 --set rooms=9 --set movers=40 --set frames=12 --set check=5 --set polygons=12 --set speed=1 "
+                     "--set policy=flat,reach");
     (void)strtok_r(text, "\n", &rest);
     for (char *line = strtok_r(NULL, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
         char *columns[COLUMNS] = {NULL};
@@ -322,11 +303,7 @@ static void test_wrong_knobs_are_refused(void **state) {
         "S3 --set occluders=chairs",    "S5 --set policy=hierarchical", "movers --set movers=10.5",
         "movers --set doors=37.5",      "B1 --set rooms=9.25"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char *text = NULL;
-        int status = run(wrong[i], &text);
-        if (status != 2) {
-            fail_msg("enfbench run %s: status %d", wrong[i], status);
-        }
+        refused(wrong[i], "");
     }
 }
 
