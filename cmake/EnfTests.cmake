@@ -37,7 +37,7 @@ if(ENF_SANITIZE OR CMAKE_CROSSCOMPILING)
   set(ENF_TIMEOUT_FAST 1200)
 endif()
 
-# enf_suite(NAME FOLDER LINKS): links is none, core, gl, compile or several joined by "+", e.g. gl+compile.
+# enf_suite(NAME FOLDER LINKS): links is none, or libraries without their enf_, joined by "+", e.g. gl+compile.
 function(enf_suite name folder links)
   set(source ${PROJECT_SOURCE_DIR}/tests/${folder}/test_${name}.c)
   if(NOT EXISTS ${source})

@@ -1,8 +1,8 @@
 /* Every suite of tests, a line each: ENF_SUITE(name, folder, links). CMake reads this file, and so does C.
  *
  * name:   the executable test_<name>, made from tests/<folder>/test_<name>.c
- * folder: unit (one function at a time), property (random input against an oracle), golden (pictures), replay
- * links:  none, core, gl or compile: the library under test; several are joined by '+', e.g. gl+compile
+ * folder: unit (one function at a time), property (random input against an oracle), golden (pictures), replay, game
+ * links:  none, or the libraries under test without their enf_: core, gl, compile, common, sim, game, front; joined by '+'
  *
  * Write the file first, then its line: a line without a file stops CMake. */
 ENF_SUITE(harness, unit, core)
