@@ -209,8 +209,11 @@ enum { FEW = 48 };
 
 void enf_dbv_sort_numbers(EnfDbvIndex *index, EnfDbvList *list, uint32_t first) {
     void *items = index->scratch.items;
-    uint32_t *numbers = list->items + first;
     uint32_t count = list->count - first;
+    if (count < 2) { /* a list that was never pushed to has no items to point at */
+        return;
+    }
+    uint32_t *numbers = list->items + first;
     if (count < FEW || !enf_dbv_enlarge(index, &items, 0, &index->scratch.capacity, count, sizeof *numbers)) {
         EnfDbvList part = {numbers, count, count};
         enf_dbv_sort(index, &part, ascending);
