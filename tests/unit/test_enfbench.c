@@ -28,7 +28,18 @@ static void refused(const char *arguments, const char *told) {
     ENF_TEST_EXPECT("enfbench", all, 2, told);
 }
 
-enum { LOST = 7, OVERDRAW = 9, OBJECTS = 14, HASH = 15, EVALUATED = 23, AVOIDED = 27, LATE = 28, COLUMNS = 36 };
+enum {
+    FRAMES = 4,
+    MEDIAN = 5,
+    LOST = 7,
+    OVERDRAW = 9,
+    OBJECTS = 14,
+    HASH = 15,
+    EVALUATED = 23,
+    AVOIDED = 27,
+    LATE = 28,
+    COLUMNS = 36
+};
 
 /* Splits a line of the CSV at commas outside quotes. */
 static uint32_t split(char *line, char *columns[COLUMNS]) {
@@ -294,6 +305,33 @@ static void test_scene_1_goes_on(void **state) {
     free(text);
 }
 
+/* It goes on to as many polygons with many movers as with one; the more a frame takes the fewer there are, but what a row says is the
+ * time of three at least. */
+static void test_dear_frames_are_few_and_timed(void **state) {
+    (void)state;
+    static const char *const polygons[] = {"polygons=12 ", "polygons=100 ", "polygons=1000 ", "polygons=10000 "};
+    /* Where checks are far apart the first two are not timed; of dear ones all are. */
+    static const uint32_t frames[] = {5, 5, 5, 3};
+    char *rest = NULL;
+    uint32_t many = 0;
+    char *text = run("B1 --set rooms=9 --set movers=2000 --set frames=12 --set speed=1 --set budget=0.001 --set policy=reach");
+    assert_null(strstr(text, "nan"));
+    (void)strtok_r(text, "\n", &rest);
+    for (char *line = strtok_r(NULL, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
+        char *columns[COLUMNS] = {NULL};
+        assert_int_equal(split(line, columns), COLUMNS);
+        assert_true(strtod(columns[MEDIAN], NULL) > 0.0);
+        if (strstr(columns[1], "polygons, 2000 movers") != NULL) {
+            assert_non_null(strstr(columns[3], polygons[many]));
+            assert_true(strtoul(columns[FRAMES], NULL, 10) >= frames[many]);
+            assert_true(many < 3 || strtoul(columns[FRAMES], NULL, 10) == 3);
+            many++;
+        }
+    }
+    assert_int_equal(many, 4);
+    free(text);
+}
+
 static void test_wrong_knobs_are_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {
@@ -318,6 +356,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_periods_vary_for_those_who_have_one),
     cmocka_unit_test(test_no_more_are_visible_than_there_are),
     cmocka_unit_test(test_scene_1_goes_on),
+    cmocka_unit_test(test_dear_frames_are_few_and_timed),
     cmocka_unit_test(test_wrong_knobs_are_refused),
 };
 

@@ -368,6 +368,12 @@ def thesis_outcome(lines, x):
     return outcome(ahead, trend), found
 
 
+def few_frames(rows, x):
+    """Which values are the mean of so few frames that one more could move them: where a frame takes seconds."""
+    few = [f"{row['technique']} at {short(number(row[x]))} ({row['frames']})" for row in rows if number(row["frames"]) < 10]
+    return f"<p>Few frames, as each takes long: {', '.join(few)}.</p>" if few else ""
+
+
 def thesis_table(folder):
     """The twelve tests at a glance."""
     lines = []
@@ -402,7 +408,7 @@ def thesis(folder):
                 more = "" if not suffix else ", 100,000 movers, all visible" if name == "B1" else ", 100,000 movers"
                 caption = (title.split(":")[0] if suffix else title) + more
                 found = thesis_outcome(lines, x)
-                out.append(f"<h4>{heading}{more}</h4>" + section(folder, part, file, caption, x, xlabel))
+                out.append(f"<h4>{heading}{more}</h4>" + section(folder, part, file, caption, x, xlabel) + few_frames(part, x))
                 out.append((claim(CLAIMS[x], *found) if found else "") + verdict(lines, xlabel))
     out.append("<h3>The differences (figures 6.1 to 6.3)</h3><p>Time with portal culling alone over time with volumes (reach).</p>")
     for scene, x, xlabel, heading in TESTS:
