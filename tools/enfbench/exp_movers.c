@@ -178,7 +178,7 @@ static const uint32_t *find(const MoversScene *scene, Runner *runner, uint32_t f
     return runner->all;
 }
 
-/* Objects that brute force finds and the list lacks. Where they are does not hang on their polygons, which are the cost of a frame. */
+/* Objects that brute force finds and the list lacks. */
 static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindows *windows, const uint32_t *list,
                      uint32_t count) {
     uint32_t missing = 0;
@@ -189,9 +189,7 @@ static uint32_t lost(const MoversScene *scene, uint32_t frame, const MoversWindo
         }
         bool listed = k < count && list[k] == i;
         if (!listed) {
-            Mover mover = scene->movers[i];
-            mover.polygons = 0;
-            EnfPose pose = bench_mover_state(&mover, (int64_t)frame);
+            EnfPose pose = bench_mover_pose(&scene->movers[i], (int64_t)frame);
             missing += bench_movers_shown(scene, windows, bench_mover_box(&pose)) ? 1U : 0U;
         }
     }

@@ -127,6 +127,13 @@ EnfPose bench_mover_state(const void *user, int64_t tick) {
     return pose;
 }
 
+EnfPose bench_mover_pose(const Mover *mover, int64_t tick) {
+    Mover bare = *mover;
+    bare.polygons = 0;
+    bare.motion = bare.motion == MOVERS_CHARACTER ? MOVERS_SPLINE : bare.motion;
+    return bench_mover_state(&bare, tick);
+}
+
 static EnfBox3 about(EnfVec3 p, double x, double y, double z) {
     EnfBox3 box = {enf_v3(p.x - x, p.y - y, p.z - z), enf_v3(p.x + x, p.y + y, p.z + z)};
     return box;

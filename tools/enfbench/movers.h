@@ -54,6 +54,9 @@ EnfVec3 bench_mover_at(const Mover *mover, int64_t tick);
 EnfVec3 bench_mover_step(const Mover *mover, int64_t tick, double *ticks);
 /** Position and turn, and the joints of a character; `user` is the Mover. */
 EnfPose bench_mover_state(const void *mover, int64_t tick);
+/** Its position and turn alone, bit by bit the same: polygons and joints, which are the cost of a frame, are left out. For checks, and
+ *  for who moved these before in the same frame. */
+EnfPose bench_mover_pose(const Mover *mover, int64_t tick);
 EnfBox3 bench_mover_bound(const void *user, const EnfBox3 *local, int64_t tick0, int64_t tick1);
 /** `evaluated`: its bounds are made from its whole state, as by those who move every object in every tick. */
 EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated);

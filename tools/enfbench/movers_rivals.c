@@ -191,7 +191,7 @@ static void move_all(Rival *rival, int64_t tick) {
 static void look_at(Rival *rival, const MoversWindows *windows, uint32_t object, uint32_t *count) {
     if (rival->asked[object] != rival->frame) {
         rival->asked[object] = rival->frame;
-        EnfPose pose = bench_mover_state(&rival->scene->movers[object], rival->tick);
+        EnfPose pose = bench_mover_pose(&rival->scene->movers[object], rival->tick); /* the rest was done in move_all */
         if (bench_movers_shown(rival->scene, windows, bench_mover_box(&pose))) {
             rival->found[(*count)++] = object;
         }

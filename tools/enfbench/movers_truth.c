@@ -165,7 +165,7 @@ const bool *bench_truth_shown(Truth *truth, uint32_t frame) {
     }
     building(truth);
     for (uint32_t i = 0; i < scene->def.movers; i++) {
-        EnfPose pose = bench_mover_state(&scene->movers[i], (int64_t)frame);
+        EnfPose pose = bench_mover_pose(&scene->movers[i], (int64_t)frame);
         object(truth, i, &pose);
     }
     for (size_t i = 0; i < samples; i++) {
