@@ -299,8 +299,9 @@ static void add_counters(const MoversScene *scene, const Runner *runner, BenchRo
     row->exposed = (double)counters.exposed / frames;
     row->expired = (double)counters.expired / frames;
     row->reinserted = (double)counters.reinserted / frames;
-    double moved = techniques[runner->technique].period == 1 && scene->def.motion != MOVERS_FREE ? row->reinserted : 0.0;
-    row->evaluated = moved + (double)(enf_world_evaluations(runner->world) - runner->evaluations) / frames;
+    bool moved = techniques[runner->technique].period == 1 && scene->def.motion != MOVERS_FREE; /* with its bound, once */
+    double asked = (double)(enf_world_evaluations(runner->world) - runner->evaluations) / frames;
+    row->evaluated = moved ? row->reinserted : asked;
     row->avoided = (double)counters.avoided / frames;
     row->nodes = (double)counters.nodes / frames;
     row->boxes = (double)counters.tested / frames;

@@ -187,6 +187,11 @@ static EnfBox3 evaluated_bound(const void *user, const EnfBox3 *local, int64_t t
     return about(pose.position, r + MOVER_REACH, r + MOVER_HEIGHT, r + MOVER_REACH);
 }
 
+/* What is seen of those whose bounds were made so in the same tick: nobody pays for polygons twice. */
+static EnfPose evaluated_state(const void *user, int64_t tick) {
+    return bench_mover_pose(user, tick);
+}
+
 EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated) {
     EnfObjectDef def = enf_object_def_default();
     def.local = local_box();
@@ -200,7 +205,7 @@ EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated) {
         def.motion.as.free.confined = true; /* through doors alone */
     } else {
         def.motion.kind = ENF_MOTION_CALLBACK;
-        def.motion.as.callback.state = bench_mover_state;
+        def.motion.as.callback.state = evaluated ? evaluated_state : bench_mover_state;
         def.motion.as.callback.bound = evaluated ? evaluated_bound : bench_mover_bound;
         def.motion.as.callback.user = mover;
     }

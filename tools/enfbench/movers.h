@@ -58,7 +58,8 @@ EnfPose bench_mover_state(const void *mover, int64_t tick);
  *  for who moved these before in the same frame. */
 EnfPose bench_mover_pose(const Mover *mover, int64_t tick);
 EnfBox3 bench_mover_bound(const void *user, const EnfBox3 *local, int64_t tick0, int64_t tick1);
-/** `evaluated`: its bounds are made from its whole state, as by those who move every object in every tick. */
+/** `evaluated`: its bounds are made from its whole state, as by those who move every object in every tick; then what is seen of it in
+ *  that tick costs its pose alone. */
 EnfObjectDef bench_mover_object(const Mover *mover, bool evaluated);
 /** The object's own box at a pose: what EnfWorld answers, bit by bit. */
 EnfBox3f bench_mover_box(const EnfPose *pose);
