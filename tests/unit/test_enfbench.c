@@ -269,7 +269,8 @@ static void test_periods_vary_for_those_who_have_one(void **state) {
     free(text);
 }
 
-/* Visible ones are some of the movers: more of them are refused, or cases that have fewer are left out, and it is told. */
+/* Visible ones are some of the movers: more of them are refused, or cases that have fewer are left out, and it is told. Scenes are
+ * called by what there is. */
 static void test_no_more_are_visible_than_there_are(void **state) {
     (void)state;
     uint32_t all = 0;
@@ -284,6 +285,9 @@ static void test_no_more_are_visible_than_there_are(void **state) {
     text = run_telling("million --set rooms=9 --set movers=30 --set frames=9 --set motion=linear --set policy=reach",
                        "movers=30 visible=1000: all movers are visible");
     assert_non_null(strstr(text, "visible=30 "));
+    assert_int_equal(count_scene(text, "linear", &all), 1); /* whatever motion a case is meant to have */
+    assert_int_equal(count_scene(text, "hidden", &all), 1);
+    assert_int_equal(all, 2);
     free(text);
 }
 

@@ -80,6 +80,12 @@ void bench_movers_knobs(BenchRun *run, MoversDef *def) {
     }
 }
 
+/* A case as it is with what the user says of it: scenes are called by what there is. */
+static MoversDef told(BenchRun *run, MoversDef def) {
+    bench_movers_knobs(run, &def);
+    return def;
+}
+
 /* Visible ones are some of the movers. What the user said of one of the two stands: a case with fewer movers than shall be visible is
  * left out, one of whose few movers the experiment wants more to be visible shows them all; and either is told. */
 static bool fits(BenchRun *run, const char *experiment, const char *name, MoversDef *def) {
@@ -134,7 +140,7 @@ bool bench_million(BenchRun *run) {
         def.budget = 6.0;
         def.motion = (MoversMotion)motion;
         snprintf(def.techniques, sizeof def.techniques, "update-all,flat,sweep,plain,maximal,reach");
-        ok = one(run, "million", bench_movers_motions[motion], def);
+        ok = one(run, "million", bench_movers_motions[told(run, def).motion], def);
     }
     for (uint32_t movers = 10000; movers <= 1000000 && ok; movers *= 100) {
         MoversDef def = bench_movers_default();
@@ -222,7 +228,7 @@ bool bench_s4(BenchRun *run) {
         MoversDef def = chairs();
         def.rooms = bench_knob_whole(&run->knobs, "rooms", rooms[i], 1, 1000000);
         def.movers = 4 * def.rooms;
-        ok = one(run, "S4", "four a room", def);
+        ok = one(run, "S4", told(run, def).movers == def.movers ? "four a room" : "movers given", def);
     }
     return ok;
 }
@@ -246,9 +252,7 @@ bool bench_s5(BenchRun *run) {
 static bool policies(BenchRun *run, MoversDef def) {
     static const uint32_t periods[] = {1, 4, 16, 64, 256, 1024};
     bool (*measure)(BenchRun *, const char *, const char *, MoversDef) = def.movers == MANY ? one_of_many : one;
-    MoversDef told = def;
-    bench_movers_knobs(run, &told);
-    const char *name = bench_movers_eyes[told.eye];
+    const char *name = bench_movers_eyes[told(run, def).eye];
     snprintf(def.techniques, sizeof def.techniques, "adaptive,maximal,optimal,reach");
     bool ok = measure(run, "S6", name, def);
     for (size_t i = 0; i < sizeof periods / sizeof *periods && ok; i++) {
