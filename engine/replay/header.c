@@ -127,7 +127,7 @@ size_t enf_replay_write_header(char bytes[ENF_REPLAY_HEADER_MAX], const EnfRepla
     for (uint32_t i = 0; i < header->field_count; i++) {
         put(&text, "field", header->fields[i]);
     }
-    memcpy(bytes + text.length, "end ", 4);
+    memcpy(bytes + text.length, (const char[4]){'e', 'n', 'd', ' '}, 4);
     text.length += 4;
     char digits[24];
     snprintf(digits, sizeof digits, "%08lx", (unsigned long)enf_crc32c(0, bytes, text.length));

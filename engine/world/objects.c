@@ -293,13 +293,18 @@ static EnfBox3 pose_box(const EnfWorld *world, uint32_t index, EnfPose pose) {
     return enf_motion_bound(&still, &world->objects[index].local, world->tick, world->tick);
 }
 
+static bool same_box(const EnfBox3 *a, const EnfBox3 *b) {
+    return a->min.x == b->min.x && a->min.y == b->min.y && a->min.z == b->min.z && a->max.x == b->max.x &&
+           a->max.y == b->max.y && a->max.z == b->max.z;
+}
+
 /* Does the new place lie within what the largest speed allows since the last push, a millionth less? Then, however many pushes
  * follow one another, volumes made since the first of them hold the last: what is left out is more than the rounding of boxes,
  * where a tick's way is not below a millionth of the coordinates. */
 static bool within_speed(const EnfWorld *world, uint32_t index, EnfPose pose) {
     const EnfFreeMotion *free = &world->objects[index].motion.as.free;
     EnfBox3 before = pose_box(world, index, free->pose), now = pose_box(world, index, pose);
-    if (memcmp(&before, &now, sizeof now) == 0) {
+    if (same_box(&before, &now)) {
         return true;
     }
     int64_t elapsed = world->tick > free->push_tick ? world->tick - free->push_tick : 0;

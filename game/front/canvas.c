@@ -126,7 +126,8 @@ static void add_letter(Canvas *canvas, const CanvasStyle *style, const double at
     unsigned char code = (unsigned char)letter;
     int tile = (code < 32 || code > 126 ? '?' : code) - 32;
     double per_unit = style->size / FONT_CAPITAL, per_texel = per_unit / FONT_UNIT;
-    double u = tile % FONT_COLUMNS * FONT_TILE_WIDTH, v = tile / FONT_COLUMNS * FONT_TILE_HEIGHT;
+    int column = tile % FONT_COLUMNS, row = tile / FONT_COLUMNS;
+    double u = column * FONT_TILE_WIDTH, v = row * FONT_TILE_HEIGHT;
     double x = at[0] - MARGIN * per_texel;
     double y = at[1] - (FONT_TILE_HEIGHT - MARGIN) * per_texel + BASE_LINE * per_unit;
     double w = FONT_TILE_WIDTH * per_texel, h = FONT_TILE_HEIGHT * per_texel;

@@ -198,7 +198,7 @@ static double distance2(Point p, Point a, Point b) {
 
 static uint8_t encode(double texels2) {
     double steps = 16.0 * sqrt(texels2);
-    return steps >= 255.0 ? 255 : (uint8_t)(steps + 0.5);
+    return steps >= 255.0 ? 255 : (uint8_t)floor(steps + 0.5);
 }
 
 static void draw_tile(uint8_t *atlas, int number, const Way *way) {
@@ -227,7 +227,8 @@ void font_draw_atlas(uint8_t *atlas) {
         draw_tile(atlas, i, &way);
     }
     Way line = {.count = 0};
-    double middle = (FONT_TILE_HEIGHT / 2 - MARGIN) / FONT_UNIT;
+    int half = FONT_TILE_HEIGHT / 2;
+    double middle = (half - MARGIN) / FONT_UNIT;
     add(&line, (Point){-20.0, middle}, (Point){40.0, middle});
     draw_tile(atlas, 95, &line);
 }

@@ -192,7 +192,8 @@ static double try_asides(GameBot *bot, EnfVec3 *to) {
     const EnfCharacter *body = &bot->game->player.body;
     double best = HUGE_VAL;
     for (int i = 0; i < ASIDES; i++) {
-        double turn = 360.0 / 8 * (i % 8), far = 1.5 + 1.75 * (i / 8);
+        int ring = i / 8;
+        double turn = 360.0 / 8 * (i % 8), far = 1.5 + 1.75 * ring;
         Line line = {.count = 1, .gait = ENF_BUTTON_CROUCH};
         line.at[0] = enf_add(body->position, enf_scale(sim_look(turn, 0.0), far));
         if (sim_foot_straight(bot->game->collider, body, line.at[0], far)) {

@@ -3,6 +3,7 @@
 #include "sim/sim.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define AUTO_CLOSE_SECONDS 4.0
@@ -286,9 +287,7 @@ static uint32_t read_stops(const char *extras, double out[SIM_STOPS_MAX]) {
         char wrapped[64];
         size_t length = strcspn(at, ",] ");
         if (length > 0 && length < sizeof wrapped - 8 && at[0] != '[') {
-            memcpy(wrapped, "{\"v\":", 5);
-            memcpy(wrapped + 5, at, length);
-            memcpy(wrapped + 5 + length, "}", 2);
+            snprintf(wrapped, sizeof wrapped, "{\"v\":%.*s}", (int)length, at);
             out[count++] = sim_extra_number(wrapped, "v", 0.0);
         }
         at += length + (at[length] != '\0');

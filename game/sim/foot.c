@@ -204,7 +204,8 @@ bool sim_foot_find(SimFoot *foot, EnfCollider *collider, const EnfCharacter *bod
 
 bool sim_foot_straight(EnfCollider *collider, const EnfCharacter *body, EnfVec3 to, double most) {
     Stand stand = {body->position, body->position.y}, next;
-    for (double gone = 0.0; gone < most; gone += PACE) {
+    double gone = 0.0;
+    while (gone < most) {
         double away = flat(stand.at, to);
         if (away < PACE) {
             return fabs(stand.at.y - to.y) < STOREY;
@@ -214,6 +215,7 @@ bool sim_foot_straight(EnfCollider *collider, const EnfCharacter *body, EnfVec3 
             return false;
         }
         stand = next;
+        gone += PACE;
     }
     return true;
 }

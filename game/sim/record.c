@@ -7,10 +7,8 @@
 /* ---- header ----------------------------------------------------------------------------------------------------- */
 
 static void copy_text(char *to, size_t size, const char *from) {
-    size_t length = strlen(from);
-    length = length < size ? length : size - 1;
-    memcpy(to, from, length);
-    memset(to + length, 0, size - length);
+    memset(to, 0, size);
+    snprintf(to, size, "%s", from);
 }
 
 EnfReplayHeader game_replay_header(const Game *game, const GameDef *def, const EnfMap *map, const char *map_name) {

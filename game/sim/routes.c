@@ -90,7 +90,8 @@ static bool find_stair(const Game *game, uint32_t index, SimGate *gate) {
     double best = -HUGE_VAL, y = gate->middle.y;
     bool low = false, lower = false; /* a step below the plane, and one below that: a rim alone is no stair */
     for (uint32_t k = 0; k < PLACES * PLACES; k++) {
-        double s = ((double)(k % PLACES) + 0.5) / PLACES, t = ((double)(k / PLACES) + 0.5) / PLACES;
+        uint32_t column = k % PLACES, row = k / PLACES;
+        double s = ((double)column + 0.5) / PLACES, t = ((double)row + 0.5) / PLACES;
         EnfVec3 at = enf_v3(o[0] + box.min.x + s * (box.max.x - box.min.x), y + 0.3,
                             o[2] + box.min.z + t * (box.max.z - box.min.z));
         EnfSweepHit hit;

@@ -354,7 +354,7 @@ static bool make_movers(MoversScene *scene, uint32_t eye_cell) {
         double random = random_unit(&seed);
         if (def->visible == 0) {
             make_mover(scene, &scene->movers[i], (uint32_t)(random * (double)sides.count), NULL, &seed);
-        } else if (i < def->visible) {
+        } else if (i < def->visible && sides.seen_count > 0) {
             uint32_t cell = def->eye == MOVERS_STILL ? eye_cell : sides.rooms[i % sides.seen_count];
             make_mover(scene, &scene->movers[i], cell, all, &seed);
         } else {

@@ -44,7 +44,8 @@ static int32_t turn(Mash *mash) {
 }
 
 static uint32_t press(Mash *mash) {
-    uint32_t buttons = (uint32_t)(next_u64(mash) & next_u64(mash)) & 127; /* each one time in four */
+    uint64_t half = next_u64(mash); /* each button one time in two; and of these, */
+    uint32_t buttons = (uint32_t)(half & next_u64(mash)) & 127;
     if (below(mash, 256) == 0) {
         buttons = (uint32_t)next_u64(mash);
     }
