@@ -140,7 +140,7 @@ bool enf_dbv_reserve_exposures(EnfDbvIndex *index, uint32_t count) {
 static bool reserve_lists(EnfDbvIndex *index, uint32_t count) {
     enum { LISTED = 4096 };
     uint32_t room = count < LISTED ? count : LISTED;
-    EnfDbvList *lists[] = {&index->due, &index->drawn, &index->blocks, &index->candidates, &index->scratch};
+    EnfDbvList *lists[] = {&index->due, &index->drawn, &index->blocks, &index->loose, &index->candidates, &index->scratch};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         void *items = lists[i]->items;
         if (!enf_dbv_enlarge(index, &items, lists[i]->count, &lists[i]->capacity, room, sizeof *lists[i]->items)) {

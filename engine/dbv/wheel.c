@@ -118,6 +118,7 @@ static bool take_slot(EnfDbvIndex *index, uint32_t slot, int64_t tick) {
             enf_dbv_prefetch(&index->volumes[chunk.items[i]]);
             if (!enf_dbv_list_add(index, due, chunk.items[i])) {
                 index->volumes[chunk.items[i]].wheel_at = ENF_NONE;
+                index->first = true; /* nobody would wake it: all are taken in anew */
                 ok = false;
             }
         }

@@ -3,6 +3,7 @@
  * all that 100 km from the world's origin. Drawn is what testing every object draws; nothing is late; who slept wakes where it would
  * be had it stepped every tick. DESIGN §5; PITFALLS 23. */
 #include "harness/harness.h"
+#include "harness/purse.h"
 #include "scenes/drawn.h"
 #include "scenes/rooms.h"
 
@@ -314,6 +315,55 @@ static void test_who_slept_wakes_where_it_would_be(void **state) {
     close_stage(&asleep);
 }
 
+/* Has no volume ended? What touches no room has none. */
+static void check_all_wait(const EnfDbvIndex *index, const EnfWorld *world) {
+    uint32_t waiting = 0;
+    for (uint32_t i = 0; i < enf_world_object_limit(world); i++) {
+        EnfBox3f volume;
+        int64_t expiry = INT64_MIN;
+        if (enf_dbv_volume(index, i, &volume, &expiry)) {
+            assert_true(expiry >= enf_world_tick(world));
+            waiting++;
+        }
+    }
+    assert_true(waiting > enf_world_object_limit(world) / 2);
+}
+
+/* Thousands are due at once, and there is no memory for the list of them: the frame says so, and when there is memory again nobody was
+ * forgotten. */
+static void test_memory_runs_out_when_all_are_due(void **state) {
+    (void)state;
+    EnfTestRng rng = enf_test_rng(9);
+    Trial trial = plain;
+    trial.objects = 6000;
+    Stage stage;
+    open_stage(&stage, &trial, &rng);
+    for (uint32_t p = 0; p < POLICIES; p++) {
+        Purse purse = purse_with(PURSE_FULL);
+        EnfAllocator allocator = purse_allocator(&purse);
+        EnfDbvDef def = {(EnfDbvPolicy)p, ENF_DBV_LCA, 64, 256};
+        EnfDbvIndex *index = NULL;
+        EnfError error = {ENF_OK, 0, "", ""};
+        uint32_t count = 0;
+        assert_int_equal(enf_dbv_create(&index, stage.world, &def, &allocator, &error), ENF_OK);
+        assert_int_equal(enf_dbv_begin(index, &error), ENF_OK);
+        (void)enf_dbv_end(index, &count);
+        enf_world_advance(stage.world, 1000);
+        purse.budget = 0;
+        assert_int_equal(enf_dbv_begin(index, &error), ENF_ERROR_MEMORY);
+        assert_true(purse.refused > 0);
+        (void)enf_dbv_end(index, &count);
+        purse.budget = PURSE_FULL;
+        enf_world_advance(stage.world, 1);
+        assert_int_equal(enf_dbv_begin(index, &error), ENF_OK);
+        (void)enf_dbv_end(index, &count);
+        check_all_wait(index, stage.world);
+        enf_dbv_destroy(index);
+        purse_assert_whole(&purse);
+    }
+    close_stage(&stage);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_periods),
     cmocka_unit_test(test_an_old_world),
@@ -323,6 +373,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_far_from_the_origin),
     cmocka_unit_test(test_everything_at_random),
     cmocka_unit_test(test_who_slept_wakes_where_it_would_be),
+    cmocka_unit_test(test_memory_runs_out_when_all_are_due),
 };
 
 ENF_TEST_MAIN(tests)
