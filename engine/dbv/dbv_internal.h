@@ -160,9 +160,15 @@ static inline void enf_dbv_prefetch_block(const EnfDbvBlock *block) {
     }
 }
 
-/** A number below `count`: always the same for an object, and different for its neighbours (Knuth 1973, vol. 3, §6.4). */
+/** Always the same for an object, and different for its neighbours (Knuth 1973, vol. 3, §6.4). */
+static inline uint32_t enf_dbv_hash(uint32_t object) {
+    return object * UINT32_C(2654435761);
+}
+
+/** A number below `count` for an object. By the lower bits: what is scattered here is spread by the upper ones afterwards (period.c),
+ *  and would come together again if both went by the same. */
 static inline uint32_t enf_dbv_scatter(uint32_t object, uint32_t count) {
-    return (uint32_t)((uint64_t)(object * UINT32_C(2654435761)) * count >> 32);
+    return (enf_dbv_hash(object) >> 8) % count;
 }
 
 /* blocks.c */

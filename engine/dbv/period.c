@@ -33,7 +33,7 @@
 /* The same object gets the same share of a period, and different ones different shares, so that a crowd that was made in one tick
  * does not expire in one (PITFALLS 23). Takes off up to an eighth. */
 static uint32_t spread(uint32_t period, uint32_t object) {
-    return period - enf_dbv_scatter(object, period) / 8;
+    return period - (uint32_t)((uint64_t)period * enf_dbv_hash(object) >> 35);
 }
 
 /* A crowd that was made in one tick and whose periods are equal would end in one for ever: the first period is any part of it. */
