@@ -31,7 +31,7 @@ endif()
 
 # Seconds after which CTest stops a test. A suite takes some ten seconds on an idle machine, many times that where it is
 # instrumented or emulated.
-set(ENF_TIMEOUT_FAST 300)
+set(ENF_TIMEOUT_FAST 900) # a hang is to be told from one slow, loaded core
 set(ENF_TIMEOUT_LONG 1800)
 if(ENF_SANITIZE OR CMAKE_CROSSCOMPILING)
   set(ENF_TIMEOUT_FAST 1200)

@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-/* Objects that were exposed and not drawn get new volumes, so many a frame and a share of them, less a share of what came into sight:
- * when a long view opens, or the eye jumps, it is paid for in instalments, the first of which is finding what is there. The others are
- * exposed again in the next frame, which costs less. */
+/* Objects that were exposed and not drawn get new volumes, so many a frame and a share of them, of which a share of what came into
+ * sight is taken off: when a long view opens, or the eye jumps, it is paid for in instalments, the first of which is finding what is
+ * there. The others are exposed again in the next frame, which costs less. */
 #define RENEWED_A_FRAME 8U
 #define RENEWED_SHARE 8U
 #define APPEARED_SHARE 4U
@@ -145,9 +145,9 @@ static void prefetch_exposed(const EnfDbvIndex *index, uint32_t i) {
 /* New volumes for what was exposed, or the old ones cut. */
 static void renew_exposed(EnfDbvIndex *index) {
     uint32_t renewed = 0;
-    uint32_t most = RENEWED_A_FRAME + (index->exposure_count - index->drawn.count) / RENEWED_SHARE;
+    uint32_t share = (index->exposure_count - index->drawn.count) / RENEWED_SHARE;
     uint32_t found = (uint32_t)index->counters.appeared / APPEARED_SHARE;
-    most = most > found ? most - found : 0;
+    uint32_t most = RENEWED_A_FRAME + (share > found ? share - found : 0);
     bool shortens = enf_dbv_keeps_off_seen(index);
     for (uint32_t i = 0; i < index->exposure_count; i++) {
         const EnfDbvExposure *exposure = &index->exposures[i];

@@ -73,8 +73,12 @@ typedef struct Knobs {
 static const char *const names[IDLE] = {"naive", "lca"};
 
 static void read_knobs(BenchRun *run, Knobs *knobs) {
-    double frames = bench_knob(&run->knobs, "frames", FRAMES, BATCHES, 1e9);
-    knobs->batch = (uint32_t)(frames / BATCHES);
+    uint32_t frames = bench_knob_whole(&run->knobs, "frames", FRAMES, BATCHES, 1000000000);
+    knobs->batch = frames / BATCHES;
+    if (frames % BATCHES != 0) {
+        fprintf(stderr, "enfbench: frames=%u: they are timed in %d batches, so that %u are measured\n", frames, BATCHES,
+                knobs->batch * BATCHES);
+    }
     knobs->seed = bench_knob_whole(&run->knobs, "seed", 1, 0, 4000000000U);
     const char *policy = bench_knob_text(&run->knobs, "policy", "all");
     bool all = strcmp(policy, "all") == 0 || strcmp(policy, "naive,lca") == 0 || strcmp(policy, "lca,naive") == 0;

@@ -347,6 +347,10 @@ static bool make_movers(MoversScene *scene, uint32_t eye_cell) {
     Sides sides = {NULL, NULL, 0, 0};
     bool *all = calloc(scene->rooms.map->cells_count + 1U, sizeof *all);
     bool ok = make_sides(scene, eye_cell, &sides) && all != NULL;
+    if (ok && def->visible > 0 && def->visible < def->movers && sides.seen_count == sides.count) {
+        fputs("enfbench: the eye sees every room on its way: there is none to hide movers in, and all walk in its sight\n",
+              stderr);
+    }
     for (uint32_t c = 0; c < scene->rooms.map->cells_count && ok; c++) {
         all[c] = true;
     }

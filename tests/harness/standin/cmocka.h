@@ -40,6 +40,11 @@ void standin_equal(uintmax_t a, uintmax_t b, int equal, const char *file, int li
 void standin_strings(const char *a, const char *b, int equal, const char *file, int line);
 void standin_memory(const void *a, const void *b, size_t size, const char *file, int line);
 
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+void print_message(const char *format, ...);
+
 #define skip() standin_skip()
 #define fail() standin_fail(__FILE__, __LINE__, "failed")
 #define fail_msg(...) standin_fail(__FILE__, __LINE__, __VA_ARGS__)
