@@ -6,6 +6,9 @@
 /* So many blocks, objects, and what objects name, are on their way from memory at once. */
 enum { BLOCKS_AHEAD = 12, OBJECTS_AHEAD = 12, NAMED_AHEAD = 6 };
 
+/* What was exposed so many frames ago is known still: as many eyes may take turns at one index. */
+#define RECENT 4U
+
 /* A window as the steps of one enf_dbv_see use it. */
 typedef struct Look {
     uint32_t cell;
@@ -155,7 +158,7 @@ static EnfDbvExposure *expose(EnfDbvIndex *index, uint32_t object) {
             index->failed = true;
             return NULL;
         }
-        index->counters.appeared += volume->exposed_frame != index->frame - 1 ? 1U : 0U;
+        index->counters.appeared += index->frame - volume->exposed_frame > RECENT ? 1U : 0U;
         volume->exposed_frame = index->frame;
         volume->exposure = index->exposure_count++;
         EnfDbvExposure exposure = {object, false, enf_world_seen_box(index->world, object)};

@@ -158,7 +158,7 @@ static void measure(BenchRun *run, KdScene *scene, const char *technique, const 
 bool bench_kd(BenchRun *run) {
     const char *sizes = bench_knob_text(&run->knobs, "boxes", "1000,10000,100000");
     uint32_t frames = bench_knob_whole(&run->knobs, "frames", 200, 1, 1000000);
-    double seed = bench_knob(&run->knobs, "seed", 1.0, 0.0, 1e9);
+    uint32_t seed = bench_knob_whole(&run->knobs, "seed", 1, 0, 1000000000);
     for (const char *at = sizes; *at != '\0';) {
         char *end = NULL;
         unsigned long count = strtoul(at, &end, 10);
@@ -168,11 +168,11 @@ bool bench_kd(BenchRun *run) {
         }
         at = *end == ',' ? end + 1 : end;
         KdScene scene;
-        if (!make_scene(&scene, (uint32_t)count, frames, (uint64_t)seed)) {
+        if (!make_scene(&scene, (uint32_t)count, frames, seed)) {
             return false;
         }
         char params[64];
-        snprintf(params, sizeof params, "boxes=%lu seed=%.0f", count, seed);
+        snprintf(params, sizeof params, "boxes=%lu seed=%u", count, seed);
         bench_progress(run, "kd: %lu boxes", count);
         measure(run, &scene, "brute", params);
         static const struct {
