@@ -54,6 +54,9 @@ typedef struct BenchKnobs {
 double bench_knob(BenchKnobs *knobs, const char *key, double fallback, double min, double max);
 /** The same of a knob that counts something: a fraction is refused, not cut off. */
 uint32_t bench_knob_whole(BenchKnobs *knobs, const char *key, uint32_t fallback, uint32_t min, uint32_t max);
+/** Numbers that count, separated by commas, into `out`; how many, 1 to `capacity`. */
+uint32_t bench_knob_list(BenchKnobs *knobs, const char *key, const char *fallback, uint32_t max, uint32_t *out,
+                         uint32_t capacity);
 /** One of `count` words: its number. */
 int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback);
 /** `fallback`, which may be NULL, where it is not given. */

@@ -104,7 +104,8 @@ static bool make_files(Files *files) {
 }
 
 bool bench_compile(BenchRun *run) {
-    const char *sizes = bench_knob_text(&run->knobs, "rooms", "100,500,2000,7000");
+    uint32_t sizes[64];
+    uint32_t size_count = bench_knob_list(&run->knobs, "rooms", "100,500,2000,7000", 100000, sizes, 64);
     uint32_t tables = bench_knob_whole(&run->knobs, "tables", 1, 0, 100);
     uint32_t repeat = bench_knob_whole(&run->knobs, "repeat", 1, 1, 64);
     Files files;
@@ -112,16 +113,8 @@ bool bench_compile(BenchRun *run) {
         return false;
     }
     bool ok = true;
-    for (const char *at = sizes; ok && *at != '\0';) {
-        char *end = NULL;
-        unsigned long rooms = strtoul(at, &end, 10);
-        if (end == at || rooms == 0 || rooms > 100000) {
-            fprintf(stderr, "enfbench: rooms=%s: counts between 1 and 100000 are expected\n", sizes);
-            ok = false;
-            break;
-        }
-        at = *end == ',' ? end + 1 : end;
-        EnfGridLevel level = layout_for((uint32_t)rooms, tables);
+    for (uint32_t n = 0; n < size_count && ok; n++) {
+        EnfGridLevel level = layout_for(sizes[n], tables);
         ok = measure(run, &files, &level, repeat);
     }
     remove(files.level);

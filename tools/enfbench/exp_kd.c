@@ -156,24 +156,18 @@ static void measure(BenchRun *run, KdScene *scene, const char *technique, const 
 }
 
 bool bench_kd(BenchRun *run) {
-    const char *sizes = bench_knob_text(&run->knobs, "boxes", "1000,10000,100000");
+    uint32_t sizes[64];
+    uint32_t size_count = bench_knob_list(&run->knobs, "boxes", "1000,10000,100000", 10000000, sizes, 64);
     uint32_t frames = bench_knob_whole(&run->knobs, "frames", 200, 1, 1000000);
     uint32_t seed = bench_knob_whole(&run->knobs, "seed", 1, 0, 1000000000);
-    for (const char *at = sizes; *at != '\0';) {
-        char *end = NULL;
-        unsigned long count = strtoul(at, &end, 10);
-        if (end == at || count == 0 || count > 10000000UL) {
-            fprintf(stderr, "enfbench: boxes=%s: counts between 1 and 10000000 are expected\n", sizes);
-            return false;
-        }
-        at = *end == ',' ? end + 1 : end;
+    for (uint32_t n = 0; n < size_count; n++) {
         KdScene scene;
-        if (!make_scene(&scene, (uint32_t)count, frames, seed)) {
+        if (!make_scene(&scene, sizes[n], frames, seed)) {
             return false;
         }
         char params[64];
-        snprintf(params, sizeof params, "boxes=%lu seed=%u", count, seed);
-        bench_progress(run, "kd: %lu boxes", count);
+        snprintf(params, sizeof params, "boxes=%u seed=%u", sizes[n], seed);
+        bench_progress(run, "kd: %u boxes", sizes[n]);
         measure(run, &scene, "brute", params);
         static const struct {
             EnfSimdKind kind;

@@ -342,7 +342,7 @@ static void add_row(BenchRun *run, const Case *current, Runner *runner) {
     row.objects = runner->drawn / (double)runner->frames;
     row.hash = runner->hash;
     add_counters(scene, runner, &row);
-    /* The first second is apart: everything is made anew there. */
+    /* The first two seconds are apart: everything is made anew there. Of a short run, a third. */
     uint32_t skip = runner->timed > 180 ? 120 : runner->timed / 3;
     uint32_t rest = runner->timed - skip;
     double hidden = (double)def->movers - row.objects;

@@ -69,6 +69,27 @@ uint32_t bench_knob_whole(BenchKnobs *knobs, const char *key, uint32_t fallback,
     return (uint32_t)value;
 }
 
+uint32_t bench_knob_list(BenchKnobs *knobs, const char *key, const char *fallback, uint32_t max, uint32_t *out,
+                         uint32_t capacity) {
+    const char *text = bench_knob_text(knobs, key, fallback);
+    uint32_t count = 0;
+    for (const char *at = text;; at++) {
+        char *end = NULL;
+        double value = strtod(at, &end);
+        bool whole = end != at && value >= 1.0 && value <= (double)max && (double)(uint32_t)value == value;
+        if (!whole || count == capacity || (*end != ',' && *end != '\0')) {
+            fprintf(stderr, "enfbench: %s=%s: at most %u whole numbers in [1, %u] are expected, separated by commas\n", key,
+                    text, capacity, max);
+            exit(2);
+        }
+        out[count++] = (uint32_t)value;
+        if (*end == '\0') {
+            return count;
+        }
+        at = end;
+    }
+}
+
 int bench_knob_word(BenchKnobs *knobs, const char *key, const char *const *words, int count, int fallback) {
     const char *text = bench_knob_text(knobs, key, words[fallback]);
     for (int i = 0; i < count; i++) {
