@@ -173,7 +173,8 @@ static void chains_are_contained(void **state) {
             }
             ExactPolygon next = exact_polygon(&camera, portal.points, portal.count);
             exact_clip_eye(&next);
-            Quad twice = quad(0.0); /* the ring's direction, to clip by its edges */
+            seen.count = next.count > 0 ? seen.count : 0; /* a portal behind the eye shows nothing */
+            Quad twice = quad(0.0);                       /* the ring's direction, to clip by its edges */
             for (uint32_t a = 0; a < next.count; a++) {
                 const ExactPoint *p = &next.points[a], *q = &next.points[(a + 1) % next.count];
                 twice += p->x / p->w * (q->y / q->w) - q->x / q->w * (p->y / p->w);
