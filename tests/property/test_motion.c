@@ -47,20 +47,25 @@ static void test_path_bounds_hold_every_state(void **state) {
     }
 }
 
+/* A translation alone, cubic, passed once in so many ticks; `times` and `values` must outlive it. */
+static EnfMotion cubic_path(uint32_t keys, const float *times, const float *values, uint32_t ticks) {
+    EnfMotion motion;
+    memset(&motion, 0, sizeof motion);
+    motion.kind = ENF_MOTION_PATH;
+    motion.as.path.rest = enf_pose_identity();
+    motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, keys, times, values};
+    motion.as.path.seconds = (double)times[keys - 1];
+    motion.as.path.period_ticks = ticks;
+    return motion;
+}
+
 /* One segment of a cubic translation, 1000 ticks long; `values` must outlive it. */
 static EnfMotion random_cubic(EnfTestRng *rng, float values[18]) {
     static const float times[2] = {0.0F, 1.0F};
     for (int i = 0; i < 18; i++) {
         values[i] = enf_test_float(rng, -5.0F, 5.0F);
     }
-    EnfMotion motion;
-    memset(&motion, 0, sizeof motion);
-    motion.kind = ENF_MOTION_PATH;
-    motion.as.path.rest = enf_pose_identity();
-    motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 2, times, values};
-    motion.as.path.seconds = 1.0;
-    motion.as.path.period_ticks = 1000;
-    return motion;
+    return cubic_path(2, times, values, 1000);
 }
 
 /* A cubic's values over a whole segment lie in the hull of its Bernstein coefficients: the engine's interval must lie within
@@ -214,13 +219,7 @@ static void test_catmull_rom(void **state) {
         points[i] = enf_test_float(&rng, -3.0F, 3.0F);
     }
     enf_catmull_rom(times, points, 5, values);
-    EnfMotion motion;
-    memset(&motion, 0, sizeof motion);
-    motion.kind = ENF_MOTION_PATH;
-    motion.as.path.rest = enf_pose_identity();
-    motion.as.path.translation = (EnfTrack){ENF_PATH_CUBIC, 5, times, values};
-    motion.as.path.seconds = 5.0;
-    motion.as.path.period_ticks = 300;
+    EnfMotion motion = cubic_path(5, times, values, 300);
     for (int k = 0; k < 5; k++) {
         EnfVec3 at = enf_motion_state(&motion, (int64_t)(60.0F * times[k])).position;
         assert_true(fabs(at.x - (double)points[3 * k]) < 1e-6 && fabs(at.z - (double)points[3 * k + 2]) < 1e-6);

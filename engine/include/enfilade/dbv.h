@@ -37,12 +37,11 @@ typedef struct EnfDbvDef {
 EnfDbvDef enf_dbv_def_default(void);
 
 typedef struct EnfDbvCounters {
-    uint64_t exposed; /**< volumes seen, their objects evaluated */
-    uint64_t
-        appeared;     /**< of these, the ones that were not exposed in the last four frames (of as many eyes that take turns) */
-    uint64_t drawn;   /**< of these, with the object itself in a window */
-    uint64_t expired; /**< volumes that ended unseen */
-    uint64_t late;    /**< volumes exposed after their expiry tick: must stay 0 */
+    uint64_t exposed;    /**< volumes seen, their objects evaluated */
+    uint64_t appeared;   /**< of these, what was not exposed in the last four frames */
+    uint64_t drawn;      /**< of these, with the object itself in a window */
+    uint64_t expired;    /**< volumes that ended unseen */
+    uint64_t late;       /**< volumes exposed after their expiry tick: must stay 0 */
     uint64_t reinserted; /**< volumes made and hung, or cut where they hang */
     uint64_t avoided;    /**< living objects that the frame did not touch */
     uint64_t nodes;      /**< tree nodes passed while hanging volumes */
